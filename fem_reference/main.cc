@@ -12,9 +12,9 @@
 #include <sstream>
 
 #include "fem_reference/run.h"
-#include "meshes/blas.h"
-#include "meshes/cad_surface.h"
-#include "meshes/errors.h"
+#include "meshes/base/blas.h"
+#include "meshes/base/errors.h"
+#include "meshes/volume_mesh/cad_surface.h"
 
 namespace {
 

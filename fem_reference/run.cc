@@ -1,10 +1,10 @@
 #include "fem_reference/run.h"
 
-#include "fem_reference/job.h"
-#include "fem_reference/modes.h"
-#include "fem_reference/press_run.h"
-#include "fem_reference/solver_choice.h"
-#include "fem_reference/transient.h"
+#include "fem_reference/job/job.h"
+#include "fem_reference/runs/modes.h"
+#include "fem_reference/runs/press_run.h"
+#include "fem_reference/runs/transient.h"
+#include "fem_reference/solvers/solver_choice.h"
 #include "fem_reference/verification/verification.h"
 
 namespace fingertip::fem_reference {

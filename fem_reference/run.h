@@ -5,7 +5,7 @@
 #include <functional>
 #include <iosfwd>
 
-#include "fem_reference/run_progress.h"
+#include "fem_reference/runs/run_progress.h"
 
 namespace fingertip::fem_reference {
 

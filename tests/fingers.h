@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "meshes/solid.h"
+#include "meshes/shape/solid.h"
 
 namespace fingers {
 

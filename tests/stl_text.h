@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "meshes/triangle_mesh.h"
+#include "meshes/shape/triangle_mesh.h"
 
 /// In millimetres.
 inline std::string stl_text(const fingertip::meshes::TriangleMesh& mesh) {

@@ -8,12 +8,12 @@
 #include <limits>
 #include <numeric>
 
-#include "calibration/surrogate/non_negative.h"
-#include "meshes/errors.h"
-#include "meshes/files.h"
-#include "meshes/geometry.h"
-#include "meshes/obstacle.h"
-#include "meshes/surface_points.h"
+#include "calibration/statistics/non_negative.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
+#include "meshes/cells/surface_points.h"
+#include "meshes/press/obstacle.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::calibration {
 

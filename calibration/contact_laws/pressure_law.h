@@ -10,8 +10,8 @@
 
 #include <vector>
 
-#include "meshes/geometry.h"
-#include "meshes/obstacle.h"
+#include "meshes/press/obstacle.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::calibration {
 

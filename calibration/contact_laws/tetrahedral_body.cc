@@ -8,8 +8,8 @@
 #include <limits>
 #include <optional>
 
-#include "meshes/boundary_parts.h"
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
+#include "meshes/volume_mesh/boundary_parts.h"
 
 namespace fingertip::calibration {
 

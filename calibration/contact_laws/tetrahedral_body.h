@@ -9,8 +9,8 @@
 
 #include <vector>
 
-#include "meshes/geometry.h"
-#include "meshes/tetrahedra.h"
+#include "meshes/shape/geometry.h"
+#include "meshes/volume_mesh/tetrahedra.h"
 
 namespace fingertip::calibration {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "calibration/fading_moments.h"
+#include "calibration/material/fading_moments.h"
 
 namespace fingertip::calibration {
 

@@ -30,8 +30,8 @@ std::array<double, 2> part_weights(TestKind kind, StressMeasure measure, double 
 using PartTable = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// A test as steps in time from rest. A branch's stress h obeys h' + h/tau = s', s the stress after
-/// long times (meshes/relaxation.h). In each step s is taken for the parabola through its start,
-/// middle and end, and h is then exact:
+/// long times (meshes/rubber/relaxation.h). In each step s is taken for the parabola through its
+/// start, middle and end, and h is then exact:
 ///
 ///   h_end = k h_start + g (s_end - s_start) + 4 f (s_end - 2 s_middle + s_start)
 ///   k = exp(-x), g = (1 - k)/x, f = ((1 + k)/2 - g)/x, x = duration/tau

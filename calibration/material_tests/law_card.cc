@@ -6,10 +6,10 @@
 #include <ostream>
 #include <set>
 
-#include "calibration/material.h"
-#include "calibration/toml_file.h"
-#include "calibration/words.h"
-#include "meshes/files.h"
+#include "calibration/files/toml_file.h"
+#include "calibration/files/words.h"
+#include "calibration/material/material.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::calibration {
 

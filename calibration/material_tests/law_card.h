@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "calibration/material_tests/law_fit.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::calibration {
 

@@ -10,9 +10,9 @@
 #include <set>
 #include <string>
 
-#include "calibration/curves/curve_checks.h"
-#include "calibration/open_branches.h"
-#include "calibration/words.h"
+#include "calibration/files/words.h"
+#include "calibration/material/open_branches.h"
+#include "calibration/statistics/curve_checks.h"
 
 namespace fingertip::calibration {
 

@@ -7,14 +7,14 @@
 #include <memory>
 #include <numeric>
 
-#include "calibration/curves/curve_fit.h"
-#include "calibration/curves/fit_statistics.h"
+#include "calibration/files/words.h"
 #include "calibration/material_tests/law_contradictions.h"
 #include "calibration/material_tests/law_starts.h"
 #include "calibration/material_tests/relaxation_starts.h"
-#include "calibration/words.h"
-#include "meshes/errors.h"
-#include "meshes/press_response.h"
+#include "calibration/statistics/curve_fit.h"
+#include "calibration/statistics/fit_statistics.h"
+#include "meshes/base/errors.h"
+#include "meshes/press/press_response.h"
 
 namespace fingertip::calibration {
 

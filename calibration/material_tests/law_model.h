@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "calibration/curves/forward_model.h"
-#include "calibration/material_parameter.h"
+#include "calibration/material/material_parameter.h"
 #include "calibration/material_tests/fading_course.h"
 #include "calibration/material_tests/material_test.h"
-#include "meshes/relaxation.h"
-#include "meshes/strain_energy.h"
+#include "calibration/statistics/forward_model.h"
+#include "meshes/rubber/relaxation.h"
+#include "meshes/rubber/strain_energy.h"
 
 namespace fingertip::calibration {
 

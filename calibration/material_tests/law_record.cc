@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "calibration/files/words.h"
 #include "calibration/material_tests/relaxation_starts.h"
-#include "calibration/words.h"
 
 namespace fingertip::calibration {
 

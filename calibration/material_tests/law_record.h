@@ -6,10 +6,10 @@
 #include <tuple>
 #include <vector>
 
-#include "calibration/fit_file.h"
+#include "calibration/files/fit_file.h"
 #include "calibration/material_tests/law_fit.h"
-#include "meshes/file_fields.h"
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/file_fields.h"
 
 namespace fingertip::calibration {
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "calibration/curves/fit_result.h"
-#include "calibration/curves/residual_structure.h"
 #include "calibration/material_tests/law_model.h"
 #include "calibration/material_tests/material_test.h"
-#include "meshes/press_response.h"
-#include "meshes/relaxation.h"
-#include "meshes/rubber.h"
+#include "calibration/statistics/fit_result.h"
+#include "calibration/statistics/residual_structure.h"
+#include "meshes/press/press_response.h"
+#include "meshes/rubber/relaxation.h"
+#include "meshes/rubber/rubber.h"
 
 namespace fingertip::calibration {
 

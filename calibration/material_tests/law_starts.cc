@@ -8,8 +8,8 @@
 #include <random>
 #include <utility>
 
-#include "calibration/surrogate/non_negative.h"
-#include "meshes/errors.h"
+#include "calibration/statistics/non_negative.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::calibration {
 

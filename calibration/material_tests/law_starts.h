@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "calibration/curves/fit_options.h"
 #include "calibration/material_tests/law_result.h"
+#include "calibration/statistics/fit_options.h"
 
 namespace fingertip::calibration {
 

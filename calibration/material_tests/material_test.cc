@@ -5,7 +5,7 @@
 #include <functional>
 #include <iterator>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::calibration {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "meshes/errors.h"
-#include "meshes/strain_energy.h"
+#include "meshes/base/errors.h"
+#include "meshes/rubber/strain_energy.h"
 
 namespace fingertip::calibration {
 

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "calibration/material_tests/law_starts.h"
-#include "calibration/surrogate/non_negative.h"
-#include "meshes/errors.h"
+#include "calibration/statistics/non_negative.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::calibration {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::calibration {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/surrogate/non_negative.h"
+#include "calibration/statistics/non_negative.h"
 #include "calibration/surrogate/surrogate.h"
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::calibration {
 namespace {

@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "calibration/fit_file.h"
-#include "calibration/fit_tables.h"
+#include "calibration/files/fit_file.h"
+#include "calibration/files/fit_tables.h"
 #include "calibration/surrogate/surrogate.h"
-#include "meshes/fields_json.h"
-#include "meshes/table_rows.h"
+#include "meshes/tables/fields_json.h"
+#include "meshes/tables/table_rows.h"
 
 namespace fingertip::calibration {
 namespace {

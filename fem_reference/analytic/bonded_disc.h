@@ -2,7 +2,7 @@
 /// formula, and a Ritz computation of its stiffness that shares nothing with a finite element code.
 #pragma once
 
-#include "meshes/rubber.h"
+#include "meshes/rubber/rubber.h"
 
 namespace fingertip::fem_reference::analytic {
 

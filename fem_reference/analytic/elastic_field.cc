@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::fem_reference::analytic {
 

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <string_view>
 
-#include "meshes/geometry.h"
-#include "meshes/rubber.h"
+#include "meshes/rubber/rubber.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::fem_reference::analytic {
 

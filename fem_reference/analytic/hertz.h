@@ -1,7 +1,7 @@
 /// Elastic sphere pressed on a rigid frictionless plane (Hertz 1882).
 #pragma once
 
-#include "meshes/rubber.h"
+#include "meshes/rubber/rubber.h"
 
 namespace fingertip::fem_reference::analytic {
 

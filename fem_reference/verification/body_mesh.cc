@@ -12,9 +12,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "fem_reference/body.h"
+#include "fem_reference/elements/body.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 namespace {
 
 using dealii::Point;
@@ -248,4 +248,4 @@ void make_mesh(const BodyMesh& description, Body<2>& body) {
     refine_at(mesh, [&](const Point<2>& p) { return p.distance(corner) < 1e-9; });
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

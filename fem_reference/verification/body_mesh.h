@@ -1,14 +1,12 @@
-/// Bodies for which exact solutions exist, as meshes. deal.II's side is in body_mesh.cc.
+/// Bodies for which exact solutions exist, as meshes. deal.II's side.
 #pragma once
 
 #include <array>
 
-#include "meshes/geometry.h"
+#include "fem_reference/elements/body.h"
+#include "meshes/shape/geometry.h"
 
-namespace fingertip::fem_reference {
-
-template <int dim>
-class Body;
+namespace fingertip::fem_reference::inline verification {
 
 /// What the body is; x, y, z are the entries of BodyMesh::size.
 enum class Shape {
@@ -62,4 +60,4 @@ struct BodyMesh {
 void make_mesh(const BodyMesh& description, Body<3>& body);
 void make_mesh(const BodyMesh& description, Body<2>& body);
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

@@ -7,7 +7,7 @@
 
 #include "fem_reference/verification/verification.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 
 /// Name of the mesh of a press in its folder.
 inline constexpr const char* verification_mesh = "verification.msh";
@@ -28,4 +28,4 @@ inline Check vanishing(std::string name, std::string quantity, std::string sourc
           error,           tolerance,           error <= tolerance};
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

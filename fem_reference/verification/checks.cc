@@ -10,7 +10,7 @@
 #include "fem_reference/verification/exact_cases.h"
 #include "fem_reference/verification/verification.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 namespace {
 
 using meshes::Vector3;
@@ -193,4 +193,4 @@ std::vector<Check> check_disc(double thickness, double poissons_ratio, const Ele
                   -forces * problem.reaction(boundary::high_z).z() / approach, stiffness, 1e-9)};
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

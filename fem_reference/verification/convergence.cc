@@ -12,7 +12,7 @@
 #include "fem_reference/verification/exact_cases.h"
 #include "fem_reference/verification/verification.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 namespace {
 
 using analytic::ManufacturedDisplacement;
@@ -115,4 +115,4 @@ ConvergenceStudy study_cantilever(const ElementType& element, double poissons_ra
                   cantilever_body, cantilever_loading(exact), exact);
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

@@ -9,10 +9,10 @@
 #include <array>
 #include <cmath>
 
-#include "fem_reference/field_solver.h"
-#include "fem_reference/kinematics.h"
+#include "fem_reference/elements/kinematics.h"
+#include "fem_reference/solvers/field_solver.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 namespace {
 
 using dealii::types::boundary_id;
@@ -394,4 +394,4 @@ std::vector<Vector3> ElasticProblem::nodes() const {
   return places;
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

@@ -1,5 +1,5 @@
 /// A linear elastic boundary value problem on a test body, solved with the parts of which a press
-/// is made: Body, HookeKernel, assemble, the condensed solver. Free of deal.II.
+/// is made: Body, HookeKernel, assemble, the condensed solver.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "fem_reference/analytic/elastic_field.h"
-#include "fem_reference/job.h"
+#include "fem_reference/job/job.h"
 #include "fem_reference/verification/body_mesh.h"
 #include "fem_reference/verification/loading.h"
-#include "meshes/rubber.h"
+#include "meshes/rubber/rubber.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 
 /// Polynomial degree and volumetric treatment.
 struct ElementType {
@@ -67,4 +67,4 @@ class ElasticProblem {
   std::unique_ptr<ElasticModel> model_;
 };
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

@@ -4,7 +4,7 @@
 
 #include "fem_reference/verification/verification.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 namespace {
 
 using meshes::Vector3;
@@ -113,4 +113,4 @@ Loading disc_loading(double approach) {
   return loading;
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

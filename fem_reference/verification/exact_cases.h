@@ -6,7 +6,7 @@
 #include "fem_reference/analytic/thick_sphere.h"
 #include "fem_reference/verification/elastic_problem.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 
 /// Walls of the tip's proportions, 0.5 to 1 cm, 400 Pa inside and 150 Pa outside.
 analytic::ThickSphere sphere(const meshes::Rubber& rubber);
@@ -34,4 +34,4 @@ BodyMesh disc_body(double thickness, int divisions, int local_refinements,
 /// The upper plate moves down by half of `approach` [m].
 Loading disc_loading(double approach);
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

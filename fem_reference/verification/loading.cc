@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 
 using meshes::Vector3;
 
@@ -24,4 +24,4 @@ Loading loading_of(const analytic::ElasticField& exact, std::vector<Prescribed> 
   return loading;
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

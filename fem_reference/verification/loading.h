@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "fem_reference/analytic/elastic_field.h"
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 
 /// A displacement component (0, 1, 2) prescribed on a boundary. A meridian has no component 1.
 struct Prescribed {
@@ -34,4 +34,4 @@ struct Loading {
 /// traction on all other boundaries, its body force. Keeps a reference to `exact`.
 Loading loading_of(const analytic::ElasticField& exact, std::vector<Prescribed> prescribed);
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

@@ -2,13 +2,13 @@
 #include <array>
 
 #include "fem_reference/analytic/bonded_disc.h"
-#include "fem_reference/job_mesh.h"
-#include "fem_reference/press.h"
+#include "fem_reference/press/press.h"
+#include "fem_reference/tip/job_mesh.h"
 #include "fem_reference/verification/check.h"
 #include "fem_reference/verification/exact_cases.h"
 #include "fem_reference/verification/verification.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 namespace {
 
 constexpr std::array elements{
@@ -86,4 +86,4 @@ std::vector<LockingPoint> lock_press(const std::vector<double>& poissons_ratios,
   return points;
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

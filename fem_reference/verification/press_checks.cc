@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "fem_reference/analytic/hertz.h"
-#include "fem_reference/job_mesh.h"
-#include "fem_reference/press.h"
+#include "fem_reference/press/press.h"
+#include "fem_reference/tip/job_mesh.h"
 #include "fem_reference/verification/check.h"
 #include "fem_reference/verification/verification.h"
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 namespace {
 
 ReferenceJob frictionless(const meshes::Geometry& geometry, std::vector<double> samples) {
@@ -106,4 +106,4 @@ std::vector<Check> check_press(const std::filesystem::path& folder) {
   return checks;
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

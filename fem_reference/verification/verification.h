@@ -1,5 +1,5 @@
 /// Verification of the continuum: its elements, loads, contact and solver against solutions that
-/// come from elsewhere. As functions, which tests call in small, and as a run. Free of deal.II.
+/// come from elsewhere. As functions, which tests call in small, and as a run.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "fem_reference/job.h"
-#include "fem_reference/run_progress.h"
+#include "fem_reference/job/job.h"
+#include "fem_reference/runs/run_progress.h"
 #include "fem_reference/verification/elastic_problem.h"
 #include "fem_reference/verification/verification_file.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 
 /// The default rubber's E with another Poisson's ratio, -1 < nu < 0.5.
 meshes::Rubber rubber_with(double poissons_ratio);
@@ -95,4 +95,4 @@ std::vector<LockingPoint> lock_press(const std::vector<double>& poissons_ratios,
 RunOutcome run_verification(const std::filesystem::path& folder, const ReferenceJob& job,
                             std::ostream& progress, const std::function<bool()>& stop_requested);
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "fem_reference/job.h"
-#include "meshes/file_fields.h"
+#include "fem_reference/job/job.h"
+#include "meshes/tables/file_fields.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 
 /// Errors of one element on meshes of one body, coarse to fine, and how fast they fall.
 struct ConvergenceStudy {
@@ -83,4 +83,4 @@ constexpr auto fields_of(const VerificationFile*) {
   return meshes::named("studies checks locking", &Whole::studies, &Whole::checks, &Whole::locking);
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

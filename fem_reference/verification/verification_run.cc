@@ -6,13 +6,13 @@
 #include <iterator>
 #include <utility>
 
-#include "fem_reference/processes.h"
+#include "fem_reference/job/processes.h"
 #include "fem_reference/verification/check.h"
 #include "fem_reference/verification/verification.h"
-#include "meshes/errors.h"
-#include "meshes/fields_json.h"
+#include "meshes/base/errors.h"
+#include "meshes/tables/fields_json.h"
 
-namespace fingertip::fem_reference {
+namespace fingertip::fem_reference::inline verification {
 namespace {
 
 using enum Volumetric;
@@ -161,4 +161,4 @@ RunOutcome run_verification(const fs::path& folder, const ReferenceJob& job, std
   return VerificationRun(folder, job, progress, stop_requested).carry_out();
 }
 
-}  // namespace fingertip::fem_reference
+}  // namespace fingertip::fem_reference::inline verification

@@ -8,7 +8,7 @@
 #include <complex>
 #include <numbers>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 
 namespace fingertip::lattice {
 

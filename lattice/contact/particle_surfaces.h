@@ -3,7 +3,7 @@
 
 #include "lattice/contact/contact.h"
 #include "lattice/contact/surfaces.h"
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 
 namespace fingertip::lattice {
 

@@ -16,7 +16,7 @@
 #include "lattice/model/plane.h"
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
-#include "meshes/press_protocol.h"
+#include "meshes/press/press_protocol.h"
 
 namespace fingertip::lattice {
 

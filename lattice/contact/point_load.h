@@ -1,7 +1,7 @@
 /// A force on a point of the tip's outer surface.
 #pragma once
 
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

@@ -12,8 +12,8 @@
 #include "lattice/model/plane.h"
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
-#include "meshes/geometry.h"
-#include "meshes/press_protocol.h"
+#include "meshes/press/press_protocol.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "lattice/model/rod.h"
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::lattice {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::lattice {
 

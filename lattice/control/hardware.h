@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lattice/control/controller.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::lattice {
 

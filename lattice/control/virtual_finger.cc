@@ -5,7 +5,7 @@
 #include "lattice/dynamics/integrators/make_stepper.h"
 #include "lattice/dynamics/thread_choice.h"
 #include "lattice/model/cut_model.h"
-#include "meshes/cubic_grid.h"
+#include "meshes/cells/cubic_grid.h"
 
 namespace fingertip::lattice {
 

@@ -13,7 +13,7 @@
 #include "lattice/model/model.h"
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 
 namespace fingertip::lattice {
 

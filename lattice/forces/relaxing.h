@@ -11,8 +11,8 @@
 namespace fingertip::lattice {
 
 /// At small strain the stress of a branch is b C:eps(d), d a displacement that obeys d' + d/tau =
-/// u' (meshes/relaxation.h). At large strain cells hold a second Piola-Kirchhoff stress per branch
-/// (Holzapfel & Simo 1996). Empty for a rubber that does not relax.
+/// u' (meshes/rubber/relaxation.h). At large strain cells hold a second Piola-Kirchhoff stress per
+/// branch (Holzapfel & Simo 1996). Empty for a rubber that does not relax.
 struct RelaxingMemory {
   double time = 0.0;         ///< when it was noted [s]
   VectorField displacement;  ///< u then [m]

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::lattice {
 

@@ -6,7 +6,7 @@
 
 #include "lattice/model/plane.h"
 #include "lattice/model/rod.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::lattice {
 

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <string>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::lattice {
 

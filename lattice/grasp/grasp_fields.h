@@ -1,8 +1,8 @@
-/// The members of a grasp's settings by name and unit (meshes/fields.h).
+/// The members of a grasp's settings by name and unit (meshes/press/fields.h).
 #pragma once
 
 #include "lattice/grasp/grasp.h"
-#include "meshes/fields.h"
+#include "meshes/press/fields.h"
 
 namespace fingertip::lattice {
 

@@ -1,6 +1,6 @@
 #include "lattice/grasp/grasp_table.h"
 
-#include "meshes/table_rows.h"
+#include "meshes/tables/table_rows.h"
 
 namespace fingertip::lattice {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lattice/grasp/grip.h"
-#include "meshes/file_fields.h"
+#include "meshes/tables/file_fields.h"
 
 namespace fingertip::lattice {
 

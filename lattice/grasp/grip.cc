@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::lattice {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "meshes/errors.h"
-#include "meshes/press_response.h"
+#include "meshes/base/errors.h"
+#include "meshes/press/press_response.h"
 
 namespace fingertip::lattice {
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "lattice/forces/energy.h"
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::lattice {
 

@@ -1,5 +1,6 @@
-/// Laws of large strain beyond `network` for packs of cells: what meshes/hyperelastic_law.h is for
-/// one point, and a bound on the tangent that steps rest on. Formulas: meshes/LAWS.md.
+/// Laws of large strain beyond `network` for packs of cells: what meshes/rubber/hyperelastic_law.h
+/// is for one point, and a bound on the tangent that steps rest on. Formulas:
+/// meshes/rubber/LAWS.md.
 #pragma once
 
 #include "lattice/kernels/cell_material.h"

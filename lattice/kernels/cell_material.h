@@ -13,7 +13,7 @@ namespace fingertip::lattice {
 ///   volume   kappa/2 (J - 1)²                            beside central springs, J = det F
 ///   network  law A + ½ bending q:Omega:q, law A = G/2 (|F|² - 3) - G ln J + lambda/2 (ln J)²
 ///   invariants, stretches
-///            W(F, excess) of any other law of large strain (meshes/hyperelastic_law.h), by
+///            W(F, excess) of any other law of large strain (meshes/rubber/hyperelastic_law.h), by
 ///            invariants of F or by its principal stretches; excess = bending/G q:Omega:q, so that
 ///            fibres are springs whose constant grows with the cell's stretch, for laws of I1 as
 ///            2 W'(I1)/G

@@ -6,7 +6,7 @@
 
 #include "lattice/kernels/lanes.h"
 #include "lattice/kernels/tie_law.h"
-#include "meshes/obstacle_surface.h"
+#include "meshes/press/obstacle_surface.h"
 
 namespace fingertip::lattice::kernel {
 

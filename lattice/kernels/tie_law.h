@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "meshes/obstacle_surface.h"
+#include "meshes/press/obstacle_surface.h"
 
 namespace fingertip::lattice {
 

@@ -10,8 +10,8 @@
 #include "lattice/kernels/cell_material.h"
 #include "lattice/kernels/lanes.h"
 #include "lattice/model/grid_cells.h"
-#include "meshes/cubic_grid.h"
-#include "meshes/cut_cells.h"
+#include "meshes/cells/cubic_grid.h"
+#include "meshes/cells/cut_cells.h"
 
 namespace fingertip::lattice {
 

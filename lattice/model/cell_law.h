@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "lattice/kernels/cell_material.h"
-#include "meshes/hyperelastic_law.h"
+#include "meshes/rubber/hyperelastic_law.h"
 
 namespace fingertip::lattice {
 

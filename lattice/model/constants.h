@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "meshes/rubber.h"
+#include "meshes/rubber/rubber.h"
 
 namespace fingertip::lattice {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::lattice {
 

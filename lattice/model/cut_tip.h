@@ -10,8 +10,8 @@
 #include "lattice/model/lattice_settings.h"
 #include "lattice/model/sector.h"
 #include "lattice/model/tie_layer.h"
-#include "meshes/geometry.h"
-#include "meshes/rubber.h"
+#include "meshes/rubber/rubber.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::lattice {
 

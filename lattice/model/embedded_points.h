@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "lattice/model/grid_cells.h"
-#include "meshes/surface_points.h"
+#include "meshes/cells/surface_points.h"
 
 namespace fingertip::lattice {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "meshes/files.h"
-#include "meshes/hyperelastic_law.h"
+#include "meshes/base/files.h"
+#include "meshes/rubber/hyperelastic_law.h"
 
 namespace fingertip::lattice {
 

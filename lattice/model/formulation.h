@@ -6,8 +6,8 @@
 #include "lattice/model/cell_lattice.h"
 #include "lattice/model/constants.h"
 #include "lattice/model/lattice_settings.h"
-#include "meshes/errors.h"
-#include "meshes/rubber.h"
+#include "meshes/base/errors.h"
+#include "meshes/rubber/rubber.h"
 
 namespace fingertip::lattice {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::lattice {
 

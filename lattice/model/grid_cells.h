@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "lattice/kernels/stencil.h"
-#include "meshes/cubic_grid.h"
-#include "meshes/cut_cells.h"
+#include "meshes/cells/cubic_grid.h"
+#include "meshes/cells/cut_cells.h"
 
 namespace fingertip::lattice {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::lattice {
 namespace {

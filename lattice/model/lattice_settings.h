@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "lattice/model/constants.h"
-#include "meshes/errors.h"
-#include "meshes/geometry.h"
-#include "meshes/rubber.h"
+#include "meshes/base/errors.h"
+#include "meshes/rubber/rubber.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

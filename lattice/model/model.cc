@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "lattice/model/cut_tip.h"
-#include "meshes/files.h"
-#include "meshes/geometry.h"
+#include "meshes/base/files.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

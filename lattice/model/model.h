@@ -16,9 +16,9 @@
 #include "lattice/model/grid_cells.h"
 #include "lattice/model/lattice_settings.h"
 #include "lattice/model/sector.h"
-#include "meshes/cubic_grid.h"
-#include "meshes/geometry.h"
-#include "meshes/rubber.h"
+#include "meshes/cells/cubic_grid.h"
+#include "meshes/rubber/rubber.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

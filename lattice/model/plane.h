@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
-#include "meshes/geometry.h"
-#include "meshes/press_protocol.h"
+#include "meshes/press/press_protocol.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

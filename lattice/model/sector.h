@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lattice/model/rod.h"
-#include "meshes/cubic_grid.h"
+#include "meshes/cells/cubic_grid.h"
 
 namespace fingertip::lattice {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lattice/kernels/tie_law.h"
-#include "meshes/strain_energy.h"
+#include "meshes/rubber/strain_energy.h"
 
 namespace fingertip::lattice {
 

@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice::paper {
 

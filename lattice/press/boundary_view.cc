@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lattice/model/cut_tip.h"
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

@@ -7,7 +7,7 @@
 
 #include "lattice/dynamics/finger.h"
 #include "lattice/model/model.h"
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

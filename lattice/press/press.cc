@@ -14,7 +14,7 @@
 #include "lattice/press/press_pictures.h"
 #include "lattice/press/press_recorder.h"
 #include "lattice/press/press_task.h"
-#include "meshes/press_motion.h"
+#include "meshes/press/press_motion.h"
 
 namespace fingertip::lattice {
 

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "lattice/dynamics/time_step.h"
-#include "meshes/geometry.h"
-#include "meshes/obstacle.h"
-#include "meshes/press_motion.h"
+#include "meshes/press/obstacle.h"
+#include "meshes/press/press_motion.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

@@ -21,10 +21,10 @@ inline constexpr double tolerated_deviation = 0.02;
 /// which the patch's radius sqrt(R delta) is below 5/4 spacings are left out: the grid itself is
 /// off by tens of per cent there.
 ///
-/// Sway. The approach, started within T (meshes/press_motion.h), makes the rubber sway on its rod,
-/// and the rod feels it. Of the sleeve in shear: modes w_n = (2n-1) w_1 with shares mu_1/(2n-1)² of
-/// the rubber's mass m, w_1 and mu_1 by Rayleigh's quotient with the sleeve's deflection under its
-/// own weight. With inertia s of its own against deformation
+/// Sway. The approach, started within T (meshes/press/press_motion.h), makes the rubber sway on its
+/// rod, and the rod feels it. Of the sleeve in shear: modes w_n = (2n-1) w_1 with shares
+/// mu_1/(2n-1)² of the rubber's mass m, w_1 and mu_1 by Rayleigh's quotient with the sleeve's
+/// deflection under its own weight. With inertia s of its own against deformation
 ///
 ///   (1 + s) z'' + w² (z + tau z') = -a(t),  force -mu m z'',  s = 43 (w dt)²,
 ///

@@ -13,7 +13,7 @@
 #include "lattice/press/press_setup.h"
 #include "lattice/press/press_shapes.h"
 #include "lattice/press/trace.h"
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 
 namespace fingertip::lattice {
 

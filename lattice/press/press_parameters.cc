@@ -8,7 +8,7 @@
 #include "lattice/kernels/stencil.h"
 #include "lattice/model/formulation.h"
 #include "lattice/statics/cut_lattice.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::lattice {
 

@@ -8,8 +8,8 @@
 
 #include "lattice/dynamics/finger.h"
 #include "lattice/press/press_outcome.h"
-#include "meshes/press_motion.h"
-#include "meshes/press_protocol.h"
+#include "meshes/press/press_motion.h"
+#include "meshes/press/press_protocol.h"
 
 namespace fingertip::lattice {
 

@@ -9,8 +9,8 @@
 #include "lattice/model/rod.h"
 #include "lattice/press/loop_stability.h"
 #include "lattice/statics/cut_lattice.h"
-#include "meshes/files.h"
-#include "meshes/press_motion.h"
+#include "meshes/base/files.h"
+#include "meshes/press/press_motion.h"
 
 namespace fingertip::lattice {
 

@@ -11,10 +11,10 @@
 #include "lattice/dynamics/integrator.h"
 #include "lattice/model/lattice_settings.h"
 #include "lattice/model/rod.h"
-#include "meshes/errors.h"
-#include "meshes/geometry.h"
-#include "meshes/press_protocol.h"
-#include "meshes/rubber.h"
+#include "meshes/base/errors.h"
+#include "meshes/press/press_protocol.h"
+#include "meshes/rubber/rubber.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lattice/press/boundary_view.h"
-#include "meshes/press_protocol.h"
+#include "meshes/press/press_protocol.h"
 
 namespace fingertip::lattice {
 

@@ -1,7 +1,7 @@
 #include "lattice/press/press_slopes.h"
 
-#include "meshes/files.h"
-#include "meshes/no_equilibrium.h"
+#include "meshes/base/files.h"
+#include "meshes/press/no_equilibrium.h"
 
 namespace fingertip::lattice {
 

@@ -2,7 +2,7 @@
 
 #include "lattice/press/press_deviation.h"
 #include "lattice/statics/cut_lattice.h"
-#include "meshes/cubic_grid.h"
+#include "meshes/cells/cubic_grid.h"
 
 namespace fingertip::lattice {
 

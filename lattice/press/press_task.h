@@ -4,7 +4,7 @@
 #include "lattice/control/task.h"
 #include "lattice/control/virtual_finger.h"
 #include "lattice/press/press_setup.h"
-#include "meshes/press_motion.h"
+#include "meshes/press/press_motion.h"
 
 namespace fingertip::lattice {
 

@@ -1,8 +1,8 @@
-/// The members of a lattice press's settings by name and unit (meshes/fields.h).
+/// The members of a lattice press's settings by name and unit (meshes/press/fields.h).
 #pragma once
 
 #include "lattice/press/press_setup.h"
-#include "meshes/fields.h"
+#include "meshes/press/fields.h"
 
 namespace fingertip::lattice {
 

@@ -16,8 +16,8 @@
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/equilibrium.h"
 #include "lattice/statics/static_contact.h"
-#include "meshes/files.h"
-#include "meshes/no_equilibrium.h"
+#include "meshes/base/files.h"
+#include "meshes/press/no_equilibrium.h"
 
 namespace fingertip::lattice {
 

@@ -8,7 +8,7 @@
 #include "lattice/press/press_shapes.h"
 #include "lattice/press/press_slopes.h"
 #include "lattice/statics/lattice_body.h"
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 
 namespace fingertip::lattice {
 

@@ -1,6 +1,6 @@
 #include "lattice/press/trace.h"
 
-#include "meshes/table_rows.h"
+#include "meshes/tables/table_rows.h"
 
 namespace fingertip::lattice {
 

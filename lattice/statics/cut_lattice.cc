@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "lattice/model/cut_tip.h"
-#include "meshes/errors.h"
-#include "meshes/files.h"
-#include "meshes/geometry.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

@@ -8,9 +8,9 @@
 #include "lattice/model/lattice_settings.h"
 #include "lattice/model/model.h"
 #include "lattice/statics/lattice_body.h"
-#include "meshes/geometry.h"
-#include "meshes/press_protocol.h"
-#include "meshes/rubber.h"
+#include "meshes/press/press_protocol.h"
+#include "meshes/rubber/rubber.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

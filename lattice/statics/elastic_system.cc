@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "lattice/statics/block_pattern.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::lattice {
 

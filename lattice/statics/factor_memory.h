@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::lattice {
 

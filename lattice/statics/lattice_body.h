@@ -9,7 +9,7 @@
 #include "lattice/model/cell_law.h"
 #include "lattice/model/embedded_points.h"
 #include "lattice/model/tie_layer.h"
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 
@@ -30,7 +30,8 @@ struct MeanCell {
   Eigen::Matrix<double, 4, 8> modes = Eigen::Matrix<double, 4, 8>::Zero();
 };
 
-/// Immutable. Everything in the tip's frame (meshes/geometry.h); energies of a displacement u:
+/// Immutable. Everything in the tip's frame (meshes/shape/geometry.h); energies of a displacement
+/// u:
 ///   fibres   ½ k (|d|² - |d0|²), small: ½ k |du|²   d = x_b - x_a; isotropic springs of the rubber
 ///            network, whose tension at rest is balanced by the cells
 ///   springs  ½ k (|d| - |d0|)², small: ½ k (d0^·du)²    central springs

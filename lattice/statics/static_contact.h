@@ -9,8 +9,8 @@
 #include "lattice/model/plane.h"
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/lattice_body.h"
-#include "meshes/geometry.h"
-#include "meshes/press_protocol.h"
+#include "meshes/press/press_protocol.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::lattice {
 

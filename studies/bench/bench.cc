@@ -11,12 +11,12 @@
 #include "studies/bench/kernels.h"
 #include "studies/bench/presses.h"
 #include "studies/bench/ratios.h"
-#include "studies/run/json_file.h"
-#include "studies/run/moduli_job.h"
-#include "studies/run/pace.h"
-#include "studies/run/press_job.h"
-#include "studies/run/press_setup.h"
-#include "studies/run/provenance.h"
+#include "studies/fits/jobs/moduli_job.h"
+#include "studies/jobs/json_file.h"
+#include "studies/jobs/provenance.h"
+#include "studies/presses/pace.h"
+#include "studies/presses/press_job.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

@@ -7,7 +7,7 @@
 
 #include "studies/bench/plan.h"
 #include "studies/config/loader.h"
-#include "studies/run/session.h"
+#include "studies/jobs/session.h"
 
 namespace fingertip::studies {
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "studies/run/fit_curves.h"
-#include "studies/run/json_file.h"
-#include "studies/run/pace.h"
-#include "studies/run/press_setup.h"
-#include "studies/run/reference_job.h"
+#include "studies/fits/setup/fit_curves.h"
+#include "studies/jobs/json_file.h"
+#include "studies/presses/pace.h"
+#include "studies/presses/press_setup.h"
+#include "studies/presses/reference_job.h"
 
 namespace fingertip::studies {
 

@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 #include "studies/bench/plan.h"
 #include "studies/config/loader.h"
-#include "studies/run/job.h"
+#include "studies/jobs/job.h"
 
 namespace fingertip::studies {
 

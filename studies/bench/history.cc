@@ -3,7 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "studies/run/cache.h"
+#include "studies/jobs/cache.h"
 
 namespace fingertip::studies {
 

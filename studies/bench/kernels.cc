@@ -7,14 +7,14 @@
 #include <cmath>
 #include <sstream>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 #include "studies/bench/lammps.h"
 #include "studies/exchange/lammps_program.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
-#include "studies/run/interrupt.h"
-#include "studies/run/json_file.h"
-#include "studies/run/provenance.h"
+#include "studies/jobs/interrupt.h"
+#include "studies/jobs/json_file.h"
+#include "studies/jobs/provenance.h"
 
 namespace fingertip::studies {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "studies/bench/plan.h"
-#include "studies/run/job.h"
+#include "studies/jobs/job.h"
 
 namespace fingertip::studies {
 

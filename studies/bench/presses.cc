@@ -7,11 +7,11 @@
 
 #include "lattice/press/press.h"
 #include "studies/bench/continua.h"
-#include "studies/run/fit_curves.h"
-#include "studies/run/json_file.h"
-#include "studies/run/pace.h"
-#include "studies/run/press_job.h"
-#include "studies/run/press_setup.h"
+#include "studies/fits/setup/fit_curves.h"
+#include "studies/jobs/json_file.h"
+#include "studies/presses/pace.h"
+#include "studies/presses/press_job.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

@@ -3,7 +3,7 @@
 
 #include "studies/bench/plan.h"
 #include "studies/config/loader.h"
-#include "studies/run/job.h"
+#include "studies/jobs/job.h"
 
 namespace fingertip::studies {
 

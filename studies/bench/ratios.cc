@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "meshes/press_response.h"
-#include "studies/run/json_file.h"
+#include "meshes/press/press_response.h"
+#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies {
 

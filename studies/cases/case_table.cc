@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "calibration/files/toml_depth.h"
 #include "calibration/material_tests/law_model.h"
-#include "calibration/toml_depth.h"
 #include "studies/cases/measures.h"
 #include "studies/cases/outputs.h"
 #include "studies/cases/planner.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/report/comparison_data.h"
-#include "studies/report/run_data.h"
-#include "studies/run/program_summary.h"
+#include "studies/presses/program_summary.h"
+#include "studies/report/results/comparison_data.h"
+#include "studies/report/results/run_data.h"
 
 namespace fingertip::studies {
 

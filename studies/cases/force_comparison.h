@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 
 namespace fingertip::studies {
 

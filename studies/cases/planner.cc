@@ -9,13 +9,13 @@
 #include "studies/cases/measures.h"
 #include "studies/config/key_table.h"
 #include "studies/files/read_fields.h"
-#include "studies/run/grasp_job.h"
-#include "studies/run/law_job.h"
-#include "studies/run/moduli_job.h"
-#include "studies/run/press_job.h"
-#include "studies/run/press_record.h"
-#include "studies/run/press_setup.h"
-#include "studies/run/reference_job.h"
+#include "studies/fits/jobs/law_job.h"
+#include "studies/fits/jobs/moduli_job.h"
+#include "studies/presses/grasp_job.h"
+#include "studies/presses/press_job.h"
+#include "studies/presses/press_record.h"
+#include "studies/presses/press_setup.h"
+#include "studies/presses/reference_job.h"
 
 namespace fingertip::studies {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "studies/cases/run_result.h"
-#include "studies/run/calibration_stages.h"
-#include "studies/run/session.h"
+#include "studies/fits/jobs/calibration_stages.h"
+#include "studies/jobs/session.h"
 
 namespace fingertip::studies {
 

@@ -7,10 +7,10 @@
 #include "calibration/material_tests/law_record.h"
 #include "fem_reference/verification/verification_file.h"
 #include "lattice/press/trace.h"
-#include "meshes/table_rows.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/run_tables.h"
-#include "studies/report/moving_press.h"
+#include "studies/report/results/moving_press.h"
 
 namespace fingertip::studies {
 

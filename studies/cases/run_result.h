@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "calibration/fit_file.h"
+#include "calibration/files/fit_file.h"
 #include "calibration/material_tests/law_record.h"
 #include "studies/cases/case_file.h"
 #include "studies/cases/force_comparison.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/files/press_summary.h"
-#include "studies/run/cache.h"
+#include "studies/jobs/cache.h"
 
 namespace fingertip::studies {
 

@@ -5,7 +5,7 @@
 #include "fem_reference/verification/verification_file.h"
 #include "studies/cases/measures.h"
 #include "studies/files/read_fields.h"
-#include "studies/run/json_file.h"
+#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <ostream>
 
-#include "meshes/files.h"
-#include "meshes/table_rows.h"
+#include "meshes/base/files.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/cases/measures.h"
 #include "studies/files/run_tables.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "studies/cases/case_file.h"
-#include "studies/run/session.h"
+#include "studies/jobs/session.h"
 
 namespace fingertip::studies {
 

@@ -6,8 +6,8 @@
 #include "studies/bench/history.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
+#include "studies/jobs/json_file.h"
 #include "studies/report/report.h"
-#include "studies/run/json_file.h"
 
 namespace fingertip::studies {
 

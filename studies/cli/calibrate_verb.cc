@@ -7,8 +7,8 @@
 #include "studies/cli/verbs.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
-#include "studies/run/calibration_stages.h"
-#include "studies/run/json_file.h"
+#include "studies/fits/jobs/calibration_stages.h"
+#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies {
 

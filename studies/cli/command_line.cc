@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "studies/config/key_table.h"
-#include "studies/run/provenance.h"
+#include "studies/jobs/provenance.h"
 
 namespace fingertip::studies {
 

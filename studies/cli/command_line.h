@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "studies/config/loader.h"
-#include "studies/run/progress.h"
+#include "studies/jobs/progress.h"
 
 namespace fingertip::studies {
 

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 #include "studies/cases/case_file.h"
 #include "studies/cli/shell_texts.h"
 #include "studies/cli/verbs.h"
 #include "studies/config/documents.h"
-#include "studies/run/calibration_stages.h"
-#include "studies/run/law_job.h"
-#include "studies/run/press_setup.h"
+#include "studies/fits/jobs/calibration_stages.h"
+#include "studies/fits/jobs/law_job.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

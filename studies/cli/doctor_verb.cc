@@ -5,8 +5,8 @@
 #include "studies/cli/verbs.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
-#include "studies/run/cache.h"
-#include "studies/run/provenance.h"
+#include "studies/jobs/cache.h"
+#include "studies/jobs/provenance.h"
 
 namespace fingertip::studies {
 

@@ -10,9 +10,9 @@
 #include "studies/exchange/fmu_files.h"
 #include "studies/exchange/lammps_files.h"
 #include "studies/exchange/lammps_import.h"
-#include "studies/run/interrupt.h"
-#include "studies/run/json_file.h"
-#include "studies/run/press_setup.h"
+#include "studies/jobs/interrupt.h"
+#include "studies/jobs/json_file.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/fit_file.h"
+#include "calibration/files/fit_file.h"
 
 namespace fingertip::studies {
 

@@ -5,9 +5,9 @@
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/files/shown_units.h"
-#include "studies/run/grasp_job.h"
-#include "studies/run/json_file.h"
-#include "studies/run/press_setup.h"
+#include "studies/jobs/json_file.h"
+#include "studies/presses/grasp_job.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

@@ -8,9 +8,9 @@
 #include "studies/cli/real_time.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
-#include "studies/run/asked_units.h"
-#include "studies/run/interrupt.h"
-#include "studies/run/press_setup.h"
+#include "studies/config/asked_units.h"
+#include "studies/jobs/interrupt.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

@@ -8,9 +8,9 @@
 #include <new>
 
 #include "lattice/control/controller.h"
-#include "meshes/blas.h"
-#include "meshes/cannot_write.h"
-#include "meshes/errors.h"
+#include "meshes/base/blas.h"
+#include "meshes/base/cannot_write.h"
+#include "meshes/base/errors.h"
 #include "studies/cli/standard_streams.h"
 #include "studies/cli/verbs.h"
 

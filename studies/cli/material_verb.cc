@@ -10,8 +10,8 @@
 #include "studies/cli/verbs.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
-#include "studies/run/json_file.h"
-#include "studies/run/law_job.h"
+#include "studies/fits/jobs/law_job.h"
+#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies {
 

@@ -6,9 +6,9 @@
 #include "studies/files/plan_file.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
-#include "studies/run/configured_fit.h"
-#include "studies/run/json_file.h"
-#include "studies/run/plan_job.h"
+#include "studies/fits/jobs/plan_job.h"
+#include "studies/fits/setup/configured_fit.h"
+#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies {
 

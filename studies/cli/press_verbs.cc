@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "fem_reference/run_tables.h"
-#include "meshes/press_response.h"
-#include "meshes/table_rows.h"
+#include "fem_reference/job/run_tables.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/cli/real_time.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
@@ -15,15 +15,15 @@
 #include "studies/files/press_summary.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
-#include "studies/run/json_file.h"
-#include "studies/run/modes_job.h"
-#include "studies/run/press_job.h"
-#include "studies/run/press_notes.h"
-#include "studies/run/press_setup.h"
-#include "studies/run/program_summary.h"
-#include "studies/run/reference_job.h"
-#include "studies/run/result_files.h"
-#include "studies/run/tracking.h"
+#include "studies/jobs/json_file.h"
+#include "studies/jobs/result_files.h"
+#include "studies/presses/modes_job.h"
+#include "studies/presses/press_job.h"
+#include "studies/presses/press_notes.h"
+#include "studies/presses/press_setup.h"
+#include "studies/presses/program_summary.h"
+#include "studies/presses/reference_job.h"
+#include "studies/presses/tracking.h"
 
 namespace fingertip::studies {
 

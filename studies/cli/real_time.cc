@@ -6,18 +6,18 @@
 #include <cmath>
 
 #include "lattice/press/setup_fields.h"
-#include "meshes/cannot_write.h"
-#include "meshes/fields_json.h"
+#include "meshes/base/cannot_write.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/cli/run_verb.h"
+#include "studies/config/asked_units.h"
 #include "studies/exchange/contact_curves.h"
 #include "studies/exchange/transfer.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
-#include "studies/run/asked_units.h"
-#include "studies/run/interrupt.h"
-#include "studies/run/json_file.h"
-#include "studies/run/press_job.h"
-#include "studies/run/press_setup.h"
+#include "studies/jobs/interrupt.h"
+#include "studies/jobs/json_file.h"
+#include "studies/presses/press_job.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

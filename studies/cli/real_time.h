@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 #include "studies/cli/command_line.h"
-#include "studies/run/pace_trial.h"
-#include "studies/run/real_time_record.h"
-#include "studies/run/session.h"
+#include "studies/files/real_time_record.h"
+#include "studies/jobs/session.h"
+#include "studies/presses/pace_trial.h"
 
 namespace fingertip::studies {
 

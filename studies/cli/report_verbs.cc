@@ -2,12 +2,12 @@
 
 #include <cstdio>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/cli/verbs.h"
+#include "studies/config/asked_units.h"
 #include "studies/config/value_reader.h"
+#include "studies/jobs/fresh_folder.h"
 #include "studies/report/report.h"
-#include "studies/run/asked_units.h"
-#include "studies/run/fresh_folder.h"
 
 namespace fingertip::studies {
 

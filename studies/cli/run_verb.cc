@@ -4,13 +4,13 @@
 
 #include "lattice/control/controller.h"
 #include "lattice/dynamics/thread_choice.h"
-#include "meshes/cannot_write.h"
-#include "meshes/errors.h"
-#include "studies/run/asked_units.h"
-#include "studies/run/cache.h"
-#include "studies/run/interrupt.h"
-#include "studies/run/press_setup.h"
-#include "studies/run/result_files.h"
+#include "meshes/base/cannot_write.h"
+#include "meshes/base/errors.h"
+#include "studies/config/asked_units.h"
+#include "studies/jobs/cache.h"
+#include "studies/jobs/interrupt.h"
+#include "studies/jobs/result_files.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "studies/cli/command_line.h"
-#include "studies/run/session.h"
+#include "studies/jobs/session.h"
 
 namespace fingertip::studies {
 

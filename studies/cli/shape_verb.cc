@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "meshes/cubic_grid.h"
-#include "meshes/geometry.h"
-#include "meshes/meridian.h"
-#include "meshes/revolved_surface.h"
-#include "meshes/solid.h"
-#include "meshes/stl_file.h"
+#include "meshes/cells/cubic_grid.h"
+#include "meshes/shape/geometry.h"
+#include "meshes/shape/meridian.h"
+#include "meshes/shape/revolved_surface.h"
+#include "meshes/shape/solid.h"
+#include "meshes/shape/stl_file.h"
 #include "studies/cli/verbs.h"
 #include "studies/config/finger_defaults.h"
 #include "studies/config/profile_file.h"
-#include "studies/report/drawing.h"
+#include "studies/report/figure/drawing.h"
 
 namespace fingertip::studies {
 namespace {

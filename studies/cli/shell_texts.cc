@@ -4,7 +4,7 @@
 
 #include "studies/cli/command_line.h"
 #include "studies/config/key_table.h"
-#include "studies/run/provenance.h"
+#include "studies/jobs/provenance.h"
 
 namespace fingertip::studies {
 

@@ -4,7 +4,7 @@
 
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
-#include "studies/run/interrupt.h"
+#include "studies/jobs/interrupt.h"
 #include "studies/sweep/sweep_run.h"
 #include "studies/sweep/sweep_table.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/cases/validation.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "calibration/material_tests/law_fit.h"
-#include "calibration/moduli_fit.h"
-#include "fem_reference/job.h"
+#include "calibration/moduli/moduli_fit.h"
+#include "fem_reference/job/job.h"
 #include "lattice/control/control_settings.h"
 #include "lattice/grasp/grasp.h"
 #include "lattice/press/press_setup.h"
@@ -106,7 +106,7 @@ struct CalibrationSettings {
   std::string machine;       ///< files of one name share a compliance
   double noise = 0.01;       ///< relative, of forces that are planned
   double noise_force = 0.0;  ///< and whatever the force [N]
-  /// Further measurements that a fit weighs: names of studies/run/fit_plan.h, or conditions.
+  /// Further measurements that a fit weighs: names of studies/fits/setup/fit_plan.h, or conditions.
   std::vector<std::string> candidates = {"repeat", "shallow", "deep",   "blank",
                                          "ball",   "plane",   "contact"};
   bool contact_as_given = false;  ///< else both contacts are fitted where none is given
@@ -144,7 +144,7 @@ constexpr auto values(ControllerKind) {
 }
 
 /// What of section [controller] goes beyond the PID. The stiffness schedules are empty here;
-/// studies/run/controller_choice.h reads the file.
+/// studies/presses/controller_choice.h reads the file.
 struct ControllerSettings {
   ControllerKind kind = ControllerKind::pid;
   lattice::AdaptiveSettings adaptive;
@@ -191,7 +191,7 @@ struct ExchangeSettings {
 };
 
 /// SI throughout. The spring constants in `press.lattice` are empty until
-/// `studies/run/press_setup.h` resolves them.
+/// `studies/presses/press_setup.h` resolves them.
 struct Config {
   lattice::PressSetup press;
   ShapeKind shape = ShapeKind::dome;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 #include "studies/config/units.h"
 
 namespace fingertip::studies {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "calibration/words.h"
-#include "meshes/files.h"
+#include "calibration/files/words.h"
+#include "meshes/base/files.h"
 #include "studies/config/value_reader.h"
 
 namespace fingertip::studies {

@@ -7,9 +7,9 @@
 
 #include "lattice/model/cut_tip.h"
 #include "lattice/press/press_deviation.h"
-#include "meshes/cubic_grid.h"
-#include "meshes/geometry.h"
-#include "meshes/surface_points.h"
+#include "meshes/cells/cubic_grid.h"
+#include "meshes/cells/surface_points.h"
+#include "meshes/shape/geometry.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
 

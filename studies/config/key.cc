@@ -1,6 +1,6 @@
 #include "studies/config/key.h"
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::studies {
 

@@ -1,7 +1,7 @@
 #include "studies/config/key_builders.h"
 
-#include "calibration/words.h"
-#include "meshes/files.h"
+#include "calibration/files/words.h"
+#include "meshes/base/files.h"
 #include "studies/config/units.h"
 
 namespace fingertip::studies {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "calibration/words.h"
-#include "meshes/files.h"
+#include "calibration/files/words.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::studies {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "calibration/material.h"
-#include "meshes/errors.h"
+#include "calibration/material/material.h"
+#include "meshes/base/errors.h"
 #include "studies/config/config.h"
 
 namespace fingertip::studies {

@@ -7,8 +7,8 @@
 
 #include <toml++/toml.h>
 
-#include "calibration/toml_depth.h"
-#include "meshes/files.h"
+#include "calibration/files/toml_depth.h"
+#include "meshes/base/files.h"
 #include "studies/config/elasticity.h"
 #include "studies/config/finger_defaults.h"
 #include "studies/config/key_table.h"

@@ -1,5 +1,5 @@
 /// The keys of [lattice], [reference] and [run].
-#include "calibration/words.h"
+#include "calibration/files/words.h"
 #include "studies/config/key_builders.h"
 #include "studies/config/key_sections.h"
 

@@ -6,9 +6,9 @@
 #include <sstream>
 #include <string>
 
-#include "meshes/csv_table.h"
-#include "meshes/errors.h"
-#include "meshes/fields.h"
+#include "meshes/base/errors.h"
+#include "meshes/press/fields.h"
+#include "meshes/tables/csv_table.h"
 #include "studies/config/trimmed.h"
 #include "studies/config/units.h"
 

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <utility>
 
-#include "meshes/errors.h"
-#include "meshes/text_file.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/text_file.h"
 #include "studies/config/surface_cache.h"
 #include "studies/config/trimmed.h"
 #include "studies/config/units.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "meshes/solid.h"
+#include "meshes/shape/solid.h"
 
 namespace fingertip::studies {
 

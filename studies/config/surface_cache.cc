@@ -7,11 +7,11 @@
 #include <boost/uuid/uuid_io.hpp>
 #include <string>
 
-#include "meshes/errors.h"
-#include "meshes/meridian.h"
-#include "meshes/revolved_surface.h"
-#include "meshes/stl_file.h"
-#include "meshes/text_file.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/text_file.h"
+#include "meshes/shape/meridian.h"
+#include "meshes/shape/revolved_surface.h"
+#include "meshes/shape/stl_file.h"
 #include "studies/config/profile_file.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 #include "studies/config/trimmed.h"
 #include "studies/config/units.h"
 

@@ -11,7 +11,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::studies {
 

@@ -6,8 +6,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
 #include "studies/control/c_structs.h"
 #include "studies/control/messages.h"
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "meshes/files.h"
-#include "meshes/geometry.h"
-#include "meshes/press_response.h"
+#include "meshes/base/files.h"
+#include "meshes/press/press_response.h"
+#include "meshes/shape/geometry.h"
 #include "studies/files/shown_units.h"
-#include "studies/run/press_job.h"
-#include "studies/run/press_setup.h"
-#include "studies/run/reference_job.h"
+#include "studies/presses/press_job.h"
+#include "studies/presses/press_setup.h"
+#include "studies/presses/reference_job.h"
 
 namespace fingertip::studies {
 

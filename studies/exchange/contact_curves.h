@@ -7,7 +7,7 @@
 
 #include "calibration/contact_laws/pressure_law.h"
 #include "studies/config/loader.h"
-#include "studies/run/job.h"
+#include "studies/jobs/job.h"
 
 namespace fingertip::studies {
 

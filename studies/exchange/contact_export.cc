@@ -3,13 +3,13 @@
 #include <map>
 #include <ostream>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 #include "studies/exchange/drake_files.h"
 #include "studies/exchange/mujoco_files.h"
 #include "studies/exchange/pressure_law_files.h"
 #include "studies/exchange/sofa_files.h"
 #include "studies/files/read_fields.h"
-#include "studies/run/json_file.h"
+#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies {
 

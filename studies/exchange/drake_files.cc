@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "calibration/contact_laws/hydroelastic_ball.h"
-#include "meshes/files.h"
-#include "meshes/geometry.h"
+#include "meshes/base/files.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::studies {
 

@@ -6,16 +6,16 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <ostream>
 
-#include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
 #include "studies/config/key_table.h"
 #include "studies/config/surface_cache.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
 #include "studies/fmu/fmu_variables.h"
-#include "studies/run/digest.h"
-#include "studies/run/press_setup.h"
-#include "studies/run/provenance.h"
+#include "studies/jobs/digest.h"
+#include "studies/jobs/provenance.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <string>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 #include "studies/exchange/undamped_march.h"
 
 namespace fingertip::studies {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/exchange/lammps_script.h"
 #include "studies/exchange/undamped_body.h"
 

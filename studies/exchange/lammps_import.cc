@@ -5,8 +5,8 @@
 #include <ostream>
 
 #include "lattice/forces/energy.h"
-#include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
 #include "studies/exchange/lammps_files.h"
 #include "studies/exchange/mass_frames.h"
 #include "studies/exchange/undamped_march.h"

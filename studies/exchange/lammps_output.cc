@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::studies {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::studies {
 

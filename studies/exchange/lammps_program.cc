@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/exchange/lammps_files.h"
 #include "studies/files/process.h"
 

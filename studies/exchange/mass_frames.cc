@@ -4,8 +4,8 @@
 
 #include <ostream>
 
-#include "meshes/files.h"
-#include "studies/run/vtk_text.h"
+#include "meshes/base/files.h"
+#include "studies/presses/pictures/vtk_text.h"
 
 namespace fingertip::studies {
 

@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "calibration/contact_laws/soft_contact.h"
-#include "meshes/files.h"
-#include "meshes/geometry.h"
+#include "meshes/base/files.h"
+#include "meshes/shape/geometry.h"
 #include "studies/exchange/soft_body.h"
 
 namespace fingertip::studies {

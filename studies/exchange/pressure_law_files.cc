@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "meshes/files.h"
-#include "meshes/geometry.h"
+#include "meshes/base/files.h"
+#include "meshes/shape/geometry.h"
 #include "studies/files/read_fields.h"
 
 namespace fingertip::studies {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/file_fields.h"
+#include "meshes/tables/file_fields.h"
 #include "studies/exchange/contact_source.h"
 
 namespace fingertip::studies {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 #include "studies/exchange/soft_body.h"
-#include "studies/run/vtk_text.h"
+#include "studies/presses/pictures/vtk_text.h"
 
 namespace fingertip::studies {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "meshes/files.h"
-#include "meshes/geometry.h"
+#include "meshes/base/files.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::studies {
 

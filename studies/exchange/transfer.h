@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "studies/exchange/contact_curves.h"
-#include "studies/run/transfer_file.h"
+#include "studies/files/transfer_file.h"
 
 namespace fingertip::studies {
 

@@ -7,7 +7,7 @@
 #include "lattice/contact/bond.h"
 #include "lattice/dynamics/time_step.h"
 #include "lattice/model/cut_model.h"
-#include "studies/run/press_setup.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

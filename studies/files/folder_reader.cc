@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "meshes/press_response.h"
-#include "meshes/text_file.h"
+#include "meshes/base/text_file.h"
+#include "meshes/press/press_response.h"
 
 namespace fingertip::studies {
 

@@ -6,10 +6,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "meshes/csv_table.h"
-#include "meshes/errors.h"
-#include "meshes/press_response.h"
-#include "meshes/table_rows.h"
+#include "meshes/base/errors.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/csv_table.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/files/read_fields.h"
 
 namespace fingertip::studies {

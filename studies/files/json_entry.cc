@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "meshes/csv_table.h"
-#include "meshes/errors.h"
-#include "meshes/press_response.h"
-#include "meshes/text_file.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/text_file.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/csv_table.h"
 
 namespace fingertip::studies {
 

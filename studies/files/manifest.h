@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "meshes/file_fields.h"
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/file_fields.h"
 
 namespace fingertip::studies {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "fem_reference/run_tables.h"
-#include "meshes/table_rows.h"
+#include "fem_reference/job/run_tables.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/files/run_tables.h"
 
 namespace fingertip::studies {

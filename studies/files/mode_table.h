@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "meshes/csv_table.h"
-#include "meshes/geometry.h"
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
+#include "meshes/shape/geometry.h"
+#include "meshes/tables/csv_table.h"
 
 namespace fingertip::studies {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/fit_file.h"
-#include "meshes/file_fields.h"
-#include "meshes/press_response.h"
+#include "calibration/files/fit_file.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/file_fields.h"
 
 namespace fingertip::studies {
 

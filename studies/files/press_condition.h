@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 #include "studies/files/folder_reader.h"
 
 namespace fingertip::studies {

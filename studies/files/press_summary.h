@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "meshes/file_fields.h"
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/file_fields.h"
 
 namespace fingertip::studies {
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <thread>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::studies {
 

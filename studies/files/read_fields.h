@@ -1,13 +1,13 @@
-/// Structs read back from JSON files, by the names that meshes/file_fields.h gives their members;
-/// they are written by meshes/fields_json.h.
+/// Structs read back from JSON files, by the names that meshes/tables/file_fields.h gives their
+/// members; they are written by meshes/tables/fields_json.h.
 #pragma once
 
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "meshes/errors.h"
-#include "meshes/fields_json.h"
+#include "meshes/base/errors.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/files/json_entry.h"
 
 namespace fingertip::studies {

@@ -1,13 +1,13 @@
 /// The rows of tables that runs leave, beside those of trace.csv (lattice/press/trace.h), grasp.csv
-/// (lattice/grasp/grasp_table.h), the continuum (fem_reference/run_tables.h), fits
-/// (calibration/fit_tables.h) and response.csv (meshes/press_response.h). SI.
+/// (lattice/grasp/grasp_table.h), the continuum (fem_reference/job/run_tables.h), fits
+/// (calibration/files/fit_tables.h) and response.csv (meshes/press/press_response.h). SI.
 #pragma once
 
 #include <string>
 
-#include "meshes/file_fields.h"
-#include "meshes/geometry.h"
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
+#include "meshes/shape/geometry.h"
+#include "meshes/tables/file_fields.h"
 
 namespace fingertip::studies {
 

@@ -10,7 +10,7 @@
 #include "lattice/press/press_task.h"
 #include "studies/fmu/fmi2.h"
 #include "studies/fmu/fmu_variables.h"
-#include "studies/run/press_setup.h"
+#include "studies/presses/press_setup.h"
 
 #define FINGERTIP_FMI extern "C" __attribute__((visibility("default")))
 

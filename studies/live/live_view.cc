@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "meshes/fields_json.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/live/server.h"
 
 namespace fingertip::studies {

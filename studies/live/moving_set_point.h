@@ -1,7 +1,7 @@
 /// A set point that a person moves while the finger follows it.
 #pragma once
 
-#include "meshes/press_motion.h"
+#include "meshes/press/press_motion.h"
 
 namespace fingertip::studies {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/live/page_files.h"
 #include "studies/live/protocol.h"
 

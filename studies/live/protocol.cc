@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "meshes/meridian.h"
+#include "meshes/shape/meridian.h"
 
 namespace fingertip::studies {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "meshes/errors.h"
-#include "meshes/text_file.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/text_file.h"
 
 namespace fingertip::studies {
 

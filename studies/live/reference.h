@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 #include "studies/files/press_condition.h"
 #include "studies/live/surface_fields.h"
 

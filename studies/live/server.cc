@@ -12,7 +12,7 @@
 #include <mutex>
 #include <thread>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/live/access.h"
 #include "studies/live/page_server.h"
 

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 #include "studies/live/protocol.h"
 
 namespace fingertip::studies {

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::studies {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::studies {
 

@@ -6,10 +6,10 @@
 #include <filesystem>
 
 #include "lattice/control/controller.h"
-#include "meshes/cannot_write.h"
-#include "meshes/errors.h"
+#include "meshes/base/cannot_write.h"
+#include "meshes/base/errors.h"
 #include "studies/config/loader.h"
-#include "studies/run/job.h"
+#include "studies/jobs/job.h"
 
 namespace fingertip::studies {
 

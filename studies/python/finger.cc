@@ -10,7 +10,7 @@
 
 #include "lattice/control/control_loop.h"
 #include "lattice/press/press_task.h"
-#include "studies/run/press_setup.h"
+#include "studies/presses/press_setup.h"
 
 namespace fingertip::studies {
 

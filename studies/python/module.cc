@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "meshes/blas.h"
+#include "meshes/base/blas.h"
 #include "studies/cli/verbs.h"
+#include "studies/jobs/interrupt.h"
+#include "studies/presses/press_setup.h"
 #include "studies/python/errors.h"
 #include "studies/python/finger.h"
 #include "studies/python/keys.h"
 #include "studies/python/tables.h"
-#include "studies/run/interrupt.h"
-#include "studies/run/press_setup.h"
 
 namespace fingertip::studies {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "lattice/press/trace.h"
-#include "meshes/press_response.h"
-#include "meshes/table_rows.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/table_rows.h"
 
 namespace fingertip::studies {
 

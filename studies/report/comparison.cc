@@ -5,12 +5,12 @@
 #include <cmath>
 #include <ostream>
 
-#include "meshes/table_rows.h"
-#include "studies/report/chapters.h"
-#include "studies/report/comparison_data.h"
-#include "studies/report/moving_press.h"
+#include "meshes/tables/table_rows.h"
+#include "studies/report/chapters/chapters.h"
+#include "studies/report/page/words.h"
 #include "studies/report/report.h"
-#include "studies/report/words.h"
+#include "studies/report/results/comparison_data.h"
+#include "studies/report/results/moving_press.h"
 
 namespace fingertip::studies {
 namespace {

@@ -9,7 +9,7 @@ foreach(file ${FILES})
   string(APPEND entries "      {\"${name}\",${pieces}},\n")
 endforeach()
 file(WRITE ${OUTPUT}
-  "#include \"studies/report/templates.h\"\n\n"
+  "#include \"studies/report/page/templates.h\"\n\n"
   "#include <map>\n#include <stdexcept>\n\n"
   "namespace fingertip::studies::reporting {\n\n"
   "std::string_view template_text(const std::string& name) {\n"

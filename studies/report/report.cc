@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "studies/report/bench_page.h"
-#include "studies/report/calibration_chapters.h"
-#include "studies/report/chapters.h"
-#include "studies/report/grasp_run.h"
-#include "studies/report/law_chapter.h"
-#include "studies/report/materials_chapter.h"
-#include "studies/report/moving_press.h"
-#include "studies/report/words.h"
+#include "studies/report/chapters/bench/bench_page.h"
+#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/fit/calibration_chapters.h"
+#include "studies/report/page/words.h"
+#include "studies/report/results/grasp_run.h"
+#include "studies/report/results/law_chapter.h"
+#include "studies/report/results/materials_chapter.h"
+#include "studies/report/results/moving_press.h"
 
 namespace fingertip::studies {
 namespace reporting {

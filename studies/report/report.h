@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/files/shown_units.h"
 
 namespace fingertip::studies {

@@ -8,11 +8,11 @@
 
 #include <toml++/toml.h>
 
-#include "calibration/toml_depth.h"
+#include "calibration/files/toml_depth.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
 #include "studies/config/value_reader.h"
-#include "studies/run/digest.h"
+#include "studies/jobs/digest.h"
 
 namespace fingertip::studies {
 

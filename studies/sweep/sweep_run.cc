@@ -7,19 +7,19 @@
 #include <thread>
 
 #include "lattice/control/controller.h"
-#include "meshes/errors.h"
-#include "studies/run/cache.h"
-#include "studies/run/file_lock.h"
-#include "studies/run/grasp_job.h"
-#include "studies/run/interrupt.h"
-#include "studies/run/json_file.h"
-#include "studies/run/modes_job.h"
-#include "studies/run/press_job.h"
-#include "studies/run/press_setup.h"
-#include "studies/run/progress.h"
-#include "studies/run/reference_job.h"
-#include "studies/run/run_folder.h"
-#include "studies/run/session.h"
+#include "meshes/base/errors.h"
+#include "studies/jobs/cache.h"
+#include "studies/jobs/file_lock.h"
+#include "studies/jobs/interrupt.h"
+#include "studies/jobs/json_file.h"
+#include "studies/jobs/progress.h"
+#include "studies/jobs/run_folder.h"
+#include "studies/jobs/session.h"
+#include "studies/presses/grasp_job.h"
+#include "studies/presses/modes_job.h"
+#include "studies/presses/press_job.h"
+#include "studies/presses/press_setup.h"
+#include "studies/presses/reference_job.h"
 
 namespace fingertip::studies {
 

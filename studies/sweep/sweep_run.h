@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/run/job.h"
+#include "studies/jobs/job.h"
 #include "studies/sweep/sweep.h"
 
 namespace fingertip::studies {

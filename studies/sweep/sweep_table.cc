@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "meshes/csv_table.h"
-#include "meshes/table_rows.h"
+#include "meshes/tables/csv_table.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/config/loader.h"
 #include "studies/files/folder_reader.h"
 #include "studies/files/mode_table.h"
-#include "studies/run/cache.h"
-#include "studies/run/result_files.h"
+#include "studies/jobs/cache.h"
+#include "studies/jobs/result_files.h"
 #include "studies/sweep/sweep_run.h"
 
 namespace fingertip::studies {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::studies {
 

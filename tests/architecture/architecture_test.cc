@@ -80,20 +80,21 @@ class PlantedTree : public testing::Test {
     fs::copy_file(source / table, root_ / table);
     for (const std::string& room : architecture::room_names(source))
       plant(room + "/README.md", "# room\n");
-    for (const char* library : {"lattice", "studies"})
+    for (const char* library : {"meshes", "lattice", "studies"})
       plant(std::string(library) + "/README.md", "# library of rooms\n");
     plant("tests/README.md", "# tests\n");
-    plant("meshes/shape.h", header("meshes", ""));
-    plant("meshes/volume_mesh.h", header("meshes", ""));
-    plant("meshes/volume_mesh.cc", body("meshes", "#include <gmsh.h>\n"));
-    plant("lattice/model/model.h", header("lattice/model", "#include \"meshes/shape.h\"\n"));
-    plant("fem_reference/job.h", header("fem_reference", "#include \"meshes/shape.h\"\n"));
+    plant("meshes/shape/shape.h", header("meshes", ""));
+    plant("meshes/volume_mesh/volume_mesh.h", header("meshes", ""));
+    plant("meshes/volume_mesh/volume_mesh.cc", body("meshes", "#include <gmsh.h>\n"));
+    plant("lattice/model/model.h", header("lattice/model", "#include \"meshes/shape/shape.h\"\n"));
+    plant("fem_reference/job/job.h",
+          header("fem_reference", "#include \"meshes/shape/shape.h\"\n"));
     plant("fem_reference/problem.h",
           header("fem_reference",
-                 "#include <deal.II/fe/fe_q.h>\n#include \"meshes/volume_mesh.h\"\n"));
+                 "#include <deal.II/fe/fe_q.h>\n#include \"meshes/volume_mesh/volume_mesh.h\"\n"));
     plant("calibration/fit.h", header("calibration", "#include \"lattice/model/model.h\"\n"));
     plant("calibration/fit.cc", body("calibration", "#include <ceres/ceres.h>\n"));
-    plant("studies/cli/run.cc", body("studies/cli", "#include \"fem_reference/job.h\"\n"));
+    plant("studies/cli/run.cc", body("studies/cli", "#include \"fem_reference/job/job.h\"\n"));
     plant("studies/cli/main.cc", "int main() {}\n");
     plant("calibration/CMakeLists.txt",
           "# not an arrow: fingertip::studies\n"
@@ -163,7 +164,8 @@ TEST_F(PlantedTree, ForbiddenLinksAreCaught) {
 
 TEST_F(PlantedTree, DealIiInAHeaderThatTheApplicationReachesIsCaught) {
   // Indirectly: studies → job.h → problem.h → deal.II.
-  plant("fem_reference/job.h", header("fem_reference", "#include \"fem_reference/problem.h\"\n"));
+  plant("fem_reference/job/job.h",
+        header("fem_reference", "#include \"fem_reference/problem.h\"\n"));
   expect_caught(architecture::check_packages, "fem_reference/problem.h", "deal.II");
 }
 
@@ -171,14 +173,16 @@ TEST_F(PlantedTree, MisplacedPackagesAreCaught) {
   plant("calibration/fit.h", header("calibration", "#include <ceres/problem.h>\n"));
   expect_caught(architecture::check_packages, "calibration/fit.h", "Ceres");
   plant("calibration/fit.h", header("calibration", ""));
-  plant("meshes/shape.h", header("meshes", "#include <gmsh.h>\n"));
-  expect_caught(architecture::check_packages, "meshes/shape.h", "gmsh");
-  plant("meshes/shape.h", header("meshes", "#include <CGAL/Surface_mesh.h>\n"));
-  expect_caught(architecture::check_packages, "meshes/shape.h", "CGAL");
-  plant("meshes/shape.h", header("meshes", ""));
-  plant("lattice/model/model.h", header("lattice", "#include \"meshes/cad_surface.h\"\n"));
+  plant("meshes/shape/shape.h", header("meshes", "#include <gmsh.h>\n"));
+  expect_caught(architecture::check_packages, "meshes/shape/shape.h", "gmsh");
+  plant("meshes/shape/shape.h", header("meshes", "#include <CGAL/Surface_mesh.h>\n"));
+  expect_caught(architecture::check_packages, "meshes/shape/shape.h", "CGAL");
+  plant("meshes/shape/shape.h", header("meshes", ""));
+  plant("lattice/model/model.h",
+        header("lattice", "#include \"meshes/volume_mesh/cad_surface.h\"\n"));
   expect_caught(architecture::check_packages, "lattice/model/model.h", "mesher");
-  plant("lattice/model/model.h", header("lattice", "#include \"meshes/volume_mesh.h\"\n"));
+  plant("lattice/model/model.h",
+        header("lattice", "#include \"meshes/volume_mesh/volume_mesh.h\"\n"));
   expect_caught(architecture::check_packages, "lattice/model/model.h", "mesher");
 }
 

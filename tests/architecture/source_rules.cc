@@ -188,20 +188,16 @@ const std::vector<Place>& places() {
         // version.h is macros only; a manifest may quote it.
         place("ceres/(?!version\\.h).*", "calibration/.*\\.cc",
               "Ceres belongs into calibration's sources"),
-        place("gmsh.*", "meshes/(volume_mesh|dome_mesh|meridian_mesh|split_mesh|cad_surface)\\.cc",
-              "gmsh belongs into the sources of meshes/volume_mesh and what it is made of"),
-        place("CGAL/.*", "meshes/(triangle_tree|tetrahedra)\\.cc",
-              "CGAL belongs into meshes/triangle_tree.cc and tetrahedra.cc"),
-        place("meshes/boundary_parts\\.h",
-              "(fem_reference|meshes)/.*|calibration/contact_laws/tetrahedral_body\\.cc",
-              "the mesher belongs to fem_reference, and to tetrahedra for other programs"),
-        place("meshes/cad_surface\\.h", "fem_reference/.*|meshes/cad_surface\\.cc",
-              "the mesher belongs to fem_reference"),
+        place("gmsh.*", "meshes/volume_mesh/.*\\.cc",
+              "gmsh belongs into the sources of meshes/volume_mesh"),
+        place("CGAL/.*", "meshes/(shape/triangle_tree|volume_mesh/tetrahedra)\\.cc",
+              "CGAL belongs into meshes/shape/triangle_tree.cc and tetrahedra.cc"),
         place(
-            "meshes/(volume_mesh|mesh_options)\\.h",
-            "fem_reference/.*|meshes/(volume_mesh|mesh_options|dome_mesh|meridian_mesh|split_mesh|"
-            "boundary_parts)\\.(h|cc)",
-            "the mesher belongs to fem_reference")};
+            "meshes/volume_mesh/boundary_parts\\.h",
+            "(fem_reference|meshes/volume_mesh)/.*|calibration/contact_laws/tetrahedral_body\\.cc",
+            "the mesher belongs to fem_reference, and to tetrahedra for other programs"),
+        place("meshes/volume_mesh/(?!boundary_parts|tetrahedra).*",
+              "(fem_reference|meshes/volume_mesh)/.*", "the mesher belongs to fem_reference")};
   }();
   return all;
 }
@@ -270,7 +266,7 @@ Findings check_circles(const fs::path& source) {
 }
 
 Findings check_namespaces(const fs::path& source) {
-  static const std::regex opening(R"(^\s*(inline\s+)?namespace\s+(fingertip[\w:]*))");
+  static const std::regex opening(R"(^\s*(inline\s+)?namespace\s+(fingertip(?:\w|::(?:inline )?)*))");
   static const std::regex program_or_interface(R"(^int main\(|^extern "C" \{)");
   Findings findings;
   std::set<std::pair<std::string, std::string>> told;
@@ -283,7 +279,7 @@ Findings check_namespaces(const fs::path& source) {
       opens_any = opens_any || std::regex_search(line, program_or_interface);
       if (!std::regex_search(line, match, opening)) continue;
       opens_any = true;
-      const std::string name = match[2];
+      const std::string name = std::regex_replace(match[2].str(), std::regex("inline "), "");
       if (name != own && !name.starts_with(own + "::") && told.emplace(file.room, name).second)
         findings.push_back({file.room, 0, "opens " + name});
     }

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "chromium.h"
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 #include "studies/files/process.h"
-#include "studies/report/document.h"
-#include "studies/report/modulus_surfaces.h"
+#include "studies/report/figure/modulus_surfaces.h"
+#include "studies/report/page/document.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "meshes/volume_mesh.h"
+#include "meshes/volume_mesh/volume_mesh.h"
 #include "tests/temporary_folder.h"
 
 /// A temporary folder that all processes know; the first one makes it and takes it away.

@@ -6,12 +6,12 @@
 #include <set>
 
 #include "campaign.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/cases/case_file.h"
 #include "studies/config/documents.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
-#include "studies/run/press_setup.h"
+#include "studies/presses/press_setup.h"
 #include "studies/sweep/sweep.h"
 #include "tests/temporary_folder.h"
 

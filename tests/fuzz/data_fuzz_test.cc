@@ -5,22 +5,22 @@
 
 #include <cmath>
 
-#include "calibration/curves/remembered_model.h"
-#include "calibration/material.h"
+#include "calibration/material/material.h"
 #include "calibration/material_tests/law_model.h"
+#include "calibration/press_fit/remembered_model.h"
 #include "calibration/surrogate/surrogate.h"
 #include "campaign.h"
-#include "fem_reference/job.h"
-#include "meshes/csv_table.h"
-#include "meshes/errors.h"
-#include "meshes/press_response.h"
+#include "fem_reference/job/job.h"
+#include "meshes/base/errors.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/csv_table.h"
 #include "studies/config/loader.h"
 #include "studies/files/json_entry.h"
-#include "studies/run/cache.h"
-#include "studies/run/curve_file.h"
-#include "studies/run/json_file.h"
-#include "studies/run/material_test_file.h"
-#include "studies/run/result_files.h"
+#include "studies/jobs/cache.h"
+#include "studies/jobs/json_file.h"
+#include "studies/jobs/result_files.h"
+#include "studies/measurements/curve_file.h"
+#include "studies/measurements/material_test_file.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;

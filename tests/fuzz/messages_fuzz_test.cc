@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/control/c_structs.h"
 #include "studies/control/local_socket.h"
 #include "studies/control/messages.h"

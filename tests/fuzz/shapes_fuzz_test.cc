@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "campaign.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/config/profile_file.h"
 #include "studies/config/solid_file.h"
 #include "tests/fingers.h"

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "meshes/rubber.h"
+#include "meshes/rubber/rubber.h"
 
 namespace fingertip::random {
 

@@ -1,5 +1,5 @@
 // STEP and BREP files, written here by gmsh's OpenCASCADE, as fingers.
-#include "meshes/cad_surface.h"
+#include "meshes/volume_mesh/cad_surface.h"
 
 #include <gmsh.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <set>
 
 #include "lattice/press/static_press.h"
-#include "meshes/volume_mesh.h"
+#include "meshes/volume_mesh/volume_mesh.h"
 #include "studies/config/loader.h"
 #include "studies/config/solid_file.h"
 #include "studies/exchange/fmu_files.h"

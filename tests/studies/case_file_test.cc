@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "case_tables.h"
-#include "meshes/table_rows.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/cases/measures.h"
 #include "studies/cases/outputs.h"
 #include "studies/config/documents.h"

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <thread>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 #include "program.h"
 #include "tests/temporary_folder.h"
 

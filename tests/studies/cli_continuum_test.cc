@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "meshes/files.h"
-#include "meshes/press_response.h"
+#include "meshes/base/files.h"
+#include "meshes/press/press_response.h"
 #include "program.h"
-#include "studies/run/fem_launch.h"
+#include "studies/jobs/fem_launch.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 #include "program.h"
 #include "tests/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <sstream>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 #include "program.h"
 #include "tests/temporary_folder.h"
 

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <thread>
 
-#include "meshes/csv_table.h"
+#include "meshes/tables/csv_table.h"
 #include "program.h"
 #include "tests/temporary_folder.h"
 

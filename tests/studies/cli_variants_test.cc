@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 #include "program.h"
 #include "tests/temporary_folder.h"
 

@@ -8,7 +8,7 @@
 
 #include "calibration/material_tests/law_record.h"
 #include "case_tables.h"
-#include "meshes/table_rows.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/cases/outputs.h"
 
 using namespace fingertip::studies;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "studies/config/loader.h"
 #include "tests/temporary_folder.h"
 

@@ -5,8 +5,8 @@
 #include <regex>
 
 #include "studies/cli/command_line.h"
+#include "studies/jobs/run_folder.h"
 #include "studies/report/report.h"
-#include "studies/run/run_folder.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;

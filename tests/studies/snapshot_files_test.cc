@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "meshes/table_rows.h"
+#include "meshes/tables/table_rows.h"
 #include "program.h"
 #include "studies/files/run_tables.h"
 #include "tests/temporary_folder.h"

@@ -10,9 +10,9 @@
 #include <random>
 #include <string>
 
-#include "meshes/errors.h"
-#include "meshes/revolved_surface.h"
-#include "meshes/stl_file.h"
+#include "meshes/base/errors.h"
+#include "meshes/shape/revolved_surface.h"
+#include "meshes/shape/stl_file.h"
 #include "studies/config/loader.h"
 #include "tests/fingers.h"
 #include "tests/stl_text.h"

@@ -1,7 +1,7 @@
 /// A response that everyone can work out in the head.
 #pragma once
 
-#include "meshes/press_response.h"
+#include "meshes/press/press_response.h"
 
 /// A straight line of the given stiffness [N/m] up to `depth` [m].
 inline fingertip::meshes::PressResponse straight(double stiffness, double depth) {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "tests/fem_reference/fem_program.h"
-#include "tests/fem_reference/run_results.h"
+#include "tests/fem_reference/runs/fem_program.h"
+#include "tests/fem_reference/runs/run_results.h"
 #include "tests/verification/axisymmetric/axisymmetric_press.h"
 
 namespace error_bars {

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "fem_reference/press.h"
+#include "fem_reference/press/press.h"
 #include "lattice/press/press.h"
 #include "lattice/press/static_press.h"
-#include "tests/fem_reference/pressing.h"
+#include "tests/fem_reference/press/pressing.h"
 #include "tests/fingers.h"
 
 using namespace fingertip;

@@ -8,7 +8,7 @@
 
 #include "lattice/dynamics/finger.h"
 #include "lattice/dynamics/time_step.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::lattice {
 

@@ -7,7 +7,7 @@
 
 #include "child_process.h"
 #include "deck.h"
-#include "meshes/volume_mesh.h"
+#include "meshes/volume_mesh/volume_mesh.h"
 
 namespace fingertip::benchmarks {
 

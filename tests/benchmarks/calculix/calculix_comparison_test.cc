@@ -7,8 +7,8 @@
 #include "calculix.h"
 #include "comparison.h"
 #include "fem_program.h"
-#include "meshes/fields_json.h"
-#include "meshes/volume_mesh.h"
+#include "meshes/tables/fields_json.h"
+#include "meshes/volume_mesh/volume_mesh.h"
 #include "tests/temporary_folder.h"
 
 namespace {

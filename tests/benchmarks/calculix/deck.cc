@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "meshes/files.h"
+#include "meshes/base/files.h"
 
 namespace fingertip::benchmarks {
 namespace {

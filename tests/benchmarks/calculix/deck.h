@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "meridian_mesh.h"
-#include "meshes/geometry.h"
-#include "meshes/rubber.h"
+#include "meshes/rubber/rubber.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::benchmarks {
 

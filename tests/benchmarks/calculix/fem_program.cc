@@ -4,9 +4,9 @@
 
 #include <fstream>
 
-#include "meshes/fields_json.h"
-#include "meshes/files.h"
-#include "meshes/press_response.h"
+#include "meshes/base/files.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/fields_json.h"
 
 namespace fingertip::benchmarks {
 namespace {

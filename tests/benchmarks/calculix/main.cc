@@ -10,8 +10,8 @@
 
 #include "calculix.h"
 #include "fem_program.h"
-#include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
 #include "report.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::benchmarks {
 

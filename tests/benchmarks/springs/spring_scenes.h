@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "meshes/cubic_grid.h"
+#include "meshes/cells/cubic_grid.h"
 #include "tests/benchmarks/springs/engine/spring_lattice.h"
 #include "tests/benchmarks/springs/engine/spring_problem.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 using namespace fingertip;
 using namespace fingertip::calibration;

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "calibration/contact_laws/hydroelastic_ball.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 using namespace fingertip;
 using namespace fingertip::calibration;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 using namespace fingertip;
 using namespace fingertip::calibration;

@@ -10,8 +10,8 @@
 
 #include "calibration/material_tests/law_model.h"
 #include "lattice/forces/forces.h"
-#include "meshes/errors.h"
-#include "meshes/hyperelastic_law.h"
+#include "meshes/base/errors.h"
+#include "meshes/rubber/hyperelastic_law.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;

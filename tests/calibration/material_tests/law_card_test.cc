@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "calibration/material.h"
-#include "meshes/errors.h"
+#include "calibration/material/material.h"
+#include "meshes/base/errors.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 using namespace fingertip;
 using namespace fingertip::calibration;

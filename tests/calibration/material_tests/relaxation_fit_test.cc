@@ -6,7 +6,7 @@
 #include <random>
 
 #include "calibration/material_tests/law_fit.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 using namespace fingertip;
 using namespace fingertip::calibration;

@@ -12,9 +12,9 @@
 #include <random>
 #include <sstream>
 
-#include "calibration/surrogate/non_negative.h"
+#include "calibration/statistics/non_negative.h"
 #include "lattice/press/static_press.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "tests/fem_reference/analytic/field_checks.h"
 
 using namespace fingertip::fem_reference::analytic;

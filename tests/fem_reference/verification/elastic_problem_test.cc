@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fem_reference/verification/verification.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 using namespace fingertip;
 using namespace fingertip::fem_reference;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "meshes/press_motion.h"
+#include "meshes/press/press_motion.h"
 #include "tests/lattice/finger_scenes.h"
 
 using namespace fingertip;

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "lattice/control/task.h"
-#include "meshes/press_motion.h"
+#include "meshes/press/press_motion.h"
 
 namespace plants {
 

@@ -7,7 +7,7 @@
 #include <complex>
 
 #include "lattice/forces/forces.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;

@@ -9,7 +9,7 @@
 #include "lattice/kernels/pack_algebra.h"
 #include "lattice/model/cell_law.h"
 #include "lattice/model/formulation.h"
-#include "meshes/fields.h"
+#include "meshes/press/fields.h"
 #include "tests/lattice/cell_scenes.h"
 #include "tests/lattice/statics/laws.h"
 

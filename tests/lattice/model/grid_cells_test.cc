@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "lattice/model/embedded_points.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 using namespace fingertip;
 using meshes::CutCell;

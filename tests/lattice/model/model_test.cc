@@ -8,7 +8,7 @@
 
 #include "lattice/forces/cube.h"
 #include "lattice/forces/stiffness.h"
-#include "meshes/cubic_grid.h"
+#include "meshes/cells/cubic_grid.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;

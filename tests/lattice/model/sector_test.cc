@@ -8,7 +8,7 @@
 
 #include "lattice/contact/bond.h"
 #include "lattice/forces/energy.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;

@@ -11,8 +11,8 @@
 
 #include "body_sums.h"
 #include "lattice/model/cut_model.h"
-#include "meshes/cubic_grid.h"
-#include "meshes/surface_points.h"
+#include "meshes/cells/cubic_grid.h"
+#include "meshes/cells/surface_points.h"
 
 using namespace fingertip;
 using namespace body_sums;

@@ -10,7 +10,7 @@
 
 #include "body_sums.h"
 #include "lattice/statics/cut_lattice.h"
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 using namespace fingertip;
 using namespace body_sums;

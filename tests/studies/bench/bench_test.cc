@@ -6,9 +6,9 @@
 
 #include "studies/bench/history.h"
 #include "studies/files/places.h"
+#include "studies/jobs/json_file.h"
+#include "studies/jobs/provenance.h"
 #include "studies/report/report.h"
-#include "studies/run/json_file.h"
-#include "studies/run/provenance.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "raw_client.h"
 #include "studies/control/messages.h"
 #include "tests/temporary_folder.h"

@@ -13,7 +13,7 @@
 #include "studies/exchange/lammps_import.h"
 #include "studies/exchange/lammps_program.h"
 #include "studies/exchange/undamped_march.h"
-#include "studies/run/press_setup.h"
+#include "studies/presses/press_setup.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;

@@ -14,7 +14,7 @@
 #include "lattice/press/press_task.h"
 #include "studies/fmu/fmi2.h"
 #include "studies/fmu/fmu_variables.h"
-#include "studies/run/press_setup.h"
+#include "studies/presses/press_setup.h"
 #include "tests/studies/program.h"
 #include "tests/temporary_folder.h"
 

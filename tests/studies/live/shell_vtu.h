@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 /// Hexahedra that share no points, from angle 0 on, `eighths` of half a turn; radii 0.5 and 1;
 /// displaced by a linear field.

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "meshes/errors.h"
-#include "page_check.h"
+#include "meshes/base/errors.h"
 #include "studies/report/report.h"
-#include "synthetic_run.h"
+#include "tests/studies/report/page_check.h"
+#include "tests/studies/report/synthetic_run.h"
 
 namespace {
 

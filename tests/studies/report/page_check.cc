@@ -1,4 +1,4 @@
-#include "page_check.h"
+#include "tests/studies/report/page_check.h"
 
 #include <map>
 #include <regex>

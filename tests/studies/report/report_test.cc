@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "meshes/errors.h"
-#include "page_check.h"
-#include "studies/report/chapters.h"
-#include "synthetic_run.h"
+#include "meshes/base/errors.h"
+#include "studies/report/chapters/chapters.h"
+#include "tests/studies/report/page_check.h"
+#include "tests/studies/report/synthetic_run.h"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "page_check.h"
 #include "studies/report/report.h"
-#include "synthetic_run.h"
+#include "tests/studies/report/page_check.h"
+#include "tests/studies/report/synthetic_run.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
-#include "synthetic_fit.h"
+#include "tests/studies/report/synthetic_fit.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <vector>
 
-#include "synthetic_run.h"
+#include "tests/studies/report/synthetic_run.h"
 
 namespace fingertip::report_testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "synthetic_run.h"
+#include "tests/studies/report/synthetic_run.h"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@
 #include <map>
 #include <vector>
 
-#include "calibration/fit_file.h"
-#include "fem_reference/run_tables.h"
+#include "calibration/files/fit_file.h"
+#include "fem_reference/job/run_tables.h"
 #include "lattice/press/trace.h"
-#include "meshes/fields_json.h"
-#include "meshes/table_rows.h"
+#include "meshes/tables/fields_json.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/files/manifest.h"
 #include "studies/files/press_summary.h"
 

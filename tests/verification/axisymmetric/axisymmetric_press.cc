@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 #include "tests/verification/axisymmetric/meridian_body.h"
 
 namespace fingertip::verification {

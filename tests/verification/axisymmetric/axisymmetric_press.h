@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "meshes/geometry.h"
-#include "meshes/press_protocol.h"
-#include "meshes/rubber.h"
+#include "meshes/press/press_protocol.h"
+#include "meshes/rubber/rubber.h"
+#include "meshes/shape/geometry.h"
 #include "tests/verification/axisymmetric/meridian.h"
 
 namespace fingertip::verification {

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "meshes/geometry.h"
+#include "meshes/shape/geometry.h"
 
 namespace fingertip::verification {
 

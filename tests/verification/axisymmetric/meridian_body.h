@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "meshes/rubber.h"
+#include "meshes/rubber/rubber.h"
 #include "tests/verification/axisymmetric/meridian.h"
 
 namespace fingertip::verification {

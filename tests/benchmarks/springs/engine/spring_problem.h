@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "meshes/errors.h"
+#include "meshes/base/errors.h"
 
 namespace fingertip::lattice::springs {
 

@@ -1,0 +1,127 @@
+#include "calibration/files/toml_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <ostream>
+#include <sstream>
+#include <utility>
+
+#include "calibration/files/toml_depth.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
+
+namespace fingertip::calibration {
+
+using meshes::InvalidInput;
+
+std::string toml_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += std::string("\\") + c;
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      constexpr std::string_view digits = "0123456789abcdef";
+      out += std::string("\\u00") + digits[std::size_t(c) / 16] + digits[std::size_t(c) % 16];
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+TomlFile::TomlFile(std::filesystem::path file, std::string again)
+    : file_(std::move(file)), again_(std::move(again)) {
+  const std::ifstream in(file_, std::ios::binary);
+  std::ostringstream content;
+  // Copying nothing sets the fail bit, so this refuses empty files and folders, too.
+  if (!in.is_open() || !(content << in.rdbuf()))
+    throw InvalidInput({file_.string(), "", "the file cannot be read or is empty",
+                        "check path and rights, or " + again_});
+  const std::string written = content.str();
+  last_line_ = std::max(1, int(std::count(written.begin(), written.end(), '\n')));
+  if (nests_too_deep(written)) fail(1, "", "", "a key has hundreds of dotted parts", again_);
+  try {
+    table_ = toml::parse(written, file_.string());
+  } catch (const toml::parse_error& error) {
+    fail(int(error.source().begin.line), "", "", std::string(error.description()),
+         "mend the line, or " + again_);
+  }
+}
+
+void TomlFile::fail(int line, const std::string& key, const std::string& value,
+                    const std::string& rule, const std::string& remedy) const {
+  std::string where = file_.string() + ":" + std::to_string(line);
+  if (!key.empty()) where += ": " + key;
+  throw InvalidInput({where, value, rule, remedy});
+}
+
+const toml::node* TomlFile::find(std::string_view section, std::string_view key) const {
+  return table_.at_path(dotted(section, key)).node();
+}
+
+const toml::node& TomlFile::node(std::string_view section, std::string_view key) const {
+  const toml::node* found = find(section, key);
+  if (found == nullptr)
+    fail(last_line_, dotted(section, key), "", "the key is missing; the file may be truncated",
+         again_);
+  return *found;
+}
+
+int TomlFile::line(std::string_view section, std::string_view key) const {
+  const toml::node* found = find(section, key);
+  return found != nullptr ? int(found->source().begin.line) : last_line_;
+}
+
+std::string TomlFile::text(std::string_view section, std::string_view key) const {
+  const std::optional<std::string> value = node(section, key).value_exact<std::string>();
+  if (!value)
+    fail(line(section, key), dotted(section, key), "", "the value must be a string",
+         "put it in quotes, a quantity with its unit");
+  return *value;
+}
+
+double TomlFile::bare_number(std::string_view section, std::string_view key) const {
+  const std::optional<double> value = node(section, key).value<double>();
+  if (!value || !std::isfinite(*value))
+    fail(line(section, key), dotted(section, key), "", "must be a finite number without quotes",
+         "write for instance 1.5");
+  return *value;
+}
+
+double TomlFile::number(std::string_view section, std::string_view key,
+                        std::string_view unit) const {
+  return number_in(text(section, key), unit, section, key);
+}
+
+double TomlFile::number_in(const std::string& written, std::string_view unit,
+                           std::string_view section, std::string_view key) const {
+  double value = 0.0;
+  const char* end = written.data() + written.size();
+  const auto parsed = std::from_chars(written.data(), end, value);
+  const std::string rest(parsed.ptr, end);
+  if (parsed.ec != std::errc() || !std::isfinite(value) || rest != " " + std::string(unit))
+    fail(line(section, key), dotted(section, key), written,
+         "must be a finite number and the unit " + std::string(unit),
+         "write for instance \"1.5 " + std::string(unit) + "\"");
+  return value;
+}
+
+void write_toml(const std::string& text, const std::string& rejected,
+                const std::filesystem::path& file) {
+  try {
+    static_cast<void>(toml::parse(text));
+  } catch (const toml::parse_error& error) {
+    throw meshes::InvalidInput(
+        {"about", "", "the texts on a material must be UTF-8: " + std::string(error.description()),
+         "rename the files it names"});
+  }
+  meshes::write_atomically(file, [&](std::ostream& out) {
+    if (!rejected.empty()) out << "# NOT ACCEPTED: the fit failed its own tests, see rejected.\n";
+    out << text;
+  });
+}
+
+}  // namespace fingertip::calibration

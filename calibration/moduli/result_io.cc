@@ -1,0 +1,51 @@
+#include "calibration/moduli/result_io.h"
+
+#include <string>
+
+#include "calibration/files/words.h"
+#include "calibration/material/file_parts.h"
+#include "calibration/moduli/fit_statement.h"
+#include "meshes/tables/fields_json.h"
+
+namespace fingertip::calibration {
+
+Material material_from(const ModuliFit& fit) {
+  Material material;
+  material.model = fit.model;
+  material.spacing = fit.spacing;
+  material.constants = fit.constants;
+  material.rubber = fit.target;
+  material.rubber.relaxation = {};  // a fit to moduli knows no time: a press has its own
+  material.kinematics = lattice::Kinematics::small;
+  // What rounding adds to E/(2G) - 1 says nothing: 0.45, not 0.44999999999999996.
+  material.validity.smallest_poissons_ratio = material.validity.largest_poissons_ratio =
+      std::stod(rounded(fit.target.poissons_ratio(), 15));
+  material.provenance =
+      "moduli: least-squares fit of the homogenised lattice to E and G of the "
+      "rubber, " +
+      std::to_string(fit.starts) + " random starts";
+  material.statement =
+      fit_statement(fit) +
+      " For small strain and lattices weighted per cell; for another spacing k1, k2, k3 scale with "
+      "it and kappa stays.";
+  return material;
+}
+
+void write_calibration_json(const ModuliFit& fit, const std::filesystem::path& file) {
+  ModuliFile content;
+  content.model = lattice::name(fit.model);
+  content.spacing = fit.spacing;
+  content.constants = constants_entry(fit.model, fit.constants, fit.target);
+  content.damping = {fit.target.retardation_time};
+  content.target = rubber_entry(fit.target);
+  content.achieved = achieved_entry(fit.achieved);
+  for (const Eigen::Vector4d& direction : fit.unidentifiable)
+    content.unidentifiable.push_back(
+        {direction(0), direction(1), direction(2), direction(3), describe_direction(direction)});
+  for (std::size_t i = 0; i < fit.residual_names.size(); ++i)
+    content.residuals[fit.residual_names[i]] = fit.residuals(Eigen::Index(i));
+  content.statement = fit_statement(fit);
+  meshes::write_json_file(content, file);
+}
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,169 @@
+/// Whether a fit passed its own tests.
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/files/words.h"
+#include "calibration/press_fit/fit_record.h"
+#include "calibration/statistics/fit_statistics.h"
+#include "meshes/base/errors.h"
+
+namespace fingertip::calibration {
+
+using Eigen::Index;
+
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+/// A curve missed by more than this share, by relative_rms, is not described, whatever its noise.
+constexpr double largest_misfit = 0.1;
+/// The softest gels and the hardest plastics [Pa].
+constexpr double softest = 1e2, hardest = 1e10;
+
+void judge_misfit(Sentences& found, const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  if (fit.birge_ratio > 1.0)
+    found.push_back("the model does not describe the data: chi-square is " +
+                    rounded(*fit.chi_square, 3) + " at " + std::to_string(fit.degrees_of_freedom) +
+                    " degrees of freedom, probability " + rounded(*fit.chi_square_probability, 2));
+  if (fit.chi_square_probability) return;
+  for (std::size_t c = 0; c < record.curves.size(); ++c) {
+    const auto& y = record.curves[c].y;
+    if (auto sentence = missed("the model", record.curves[c].name, own_residuals(record, c),
+                               Eigen::VectorXd::Map(y.data(), Index(y.size())), largest_misfit))
+      found.push_back(*std::move(sentence));
+  }
+}
+
+/// What a file must show of its largest force before it contradicts a touch.
+constexpr double shown_share = 0.01, shown_noises = 4.0;
+
+/// What the load cell tells of a curve without load [N].
+double zero_of(const FitRecord& record, const Curve& curve) {
+  for (const RigValue& value : record.rig)
+    if (value.quantity == MaterialParameter::force_offset && value.of == curve.name)
+      return value.place ? record.fit.estimates(Index(*value.place)) : value.held;
+  return 0.0;
+}
+
+/// A touch before a file's first row says that the finger was pressed there already: a force that
+/// the file must show, at least half of it.
+void judge_touch(Sentences& found, const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  for (const RigValue& value : record.rig) {
+    if (value.quantity != MaterialParameter::touch_offset || !value.place) continue;
+    const auto curve = std::ranges::find(record.curves, value.of, &Curve::name);
+    if (curve == record.curves.end() || curve->x.empty()) continue;
+    const double touch = fit.estimates(Index(*value.place)), zero = zero_of(record, *curve),
+                 measured = curve->y.front() - zero,
+                 pressed = measured - fit.residuals[std::size_t(curve - record.curves.begin())](0),
+                 largest = *std::ranges::max_element(curve->y) - zero;
+    if (touch >= curve->x.front() || measured > 0.5 * pressed || pressed < shown_share * largest ||
+        pressed < shown_noises * curve->course.noise)
+      continue;
+    found.push_back(fit.labels[*value.place] + " = " + quantity_text(touch, "m", 3) +
+                    " lies before the first row of " + curve->name + ", " +
+                    quantity_text(curve->x.front(), "m", 3) + ", where the model has " +
+                    quantity_text(pressed, "N", 2) + " (" + percent(pressed / largest) +
+                    " of the largest) and " + quantity_text(measured, "N", 2) +
+                    " were measured: obstacle, shape or law are others, or the load cell was "
+                    "zeroed under load (rig: force_offset = \"fit\")");
+  }
+}
+
+void judge_bounds(Sentences& found, const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  if (fit.poissons_ratio_bound) {
+    found.push_back("Poisson's ratio ended at a bound, " + rounded(*fit.poissons_ratio_bound, 5) +
+                    ": the data do not tell it; hold it (parameters: modulus, with the rubber's "
+                    "ratio), or widen its range where such a rubber is possible");
+    return;
+  }
+  // Noise makes an estimate negative where there is none: twice the interval lies below zero.
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    if (fit.parameters[i] == MaterialParameter::compliance &&
+        (2.0 * fit.upper(Index(i)) < fit.estimates(Index(i)) ||
+         (fit.at_bound[i] && fit.estimates(Index(i)) < 0.0)))
+      found.push_back(fit.labels[i] + " = " +
+                      quantity_text(fit.estimates(Index(i)), unit(fit.parameters[i])) +
+                      " is below zero, which no machine has: the force grows faster with depth "
+                      "than the model's (sticking, a law that stiffens, another obstacle or "
+                      "shape); hold the compliance, and mend that");
+    else if (fit.at_bound[i])
+      found.push_back(fit.labels[i] + " ended at a bound, " +
+                      quantity_text(fit.estimates(Index(i)), unit(fit.parameters[i])));
+}
+
+/// Half of what elastic solids have, -1 to 1/2.
+constexpr double whole_ratio = 0.75;
+
+/// Whether what changes most along it is a branch of the relaxation.
+bool is_of_branches(const CurveFit& fit, const Direction& direction) {
+  Index most = 0;
+  direction.changes.cwiseAbs().maxCoeff(&most);
+  return is_of_the_relaxation(fit.parameters[std::size_t(most)]);
+}
+
+void judge_identifiability(Sentences& found, const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  if (fit.poissons_ratio_bound) return;
+  std::string remedy =
+      fit.poissons_ratio_error
+          ? ": hold Poisson's ratio (parameters: modulus), give a prior, or add a curve of another "
+            "contact"
+          : ": hold what is known, of the machine by calibration.rig, give a prior, or add a press "
+            "against another obstacle or a rigid blank";
+  if (std::ranges::any_of(fit.unidentifiable,
+                          [&](const Direction& each) { return is_of_branches(fit, each); }))
+    remedy =
+        ": free fewer branches of the relaxation, hold those that are known (rubber.relaxation), "
+        "or "
+        "measure a longer hold after a faster ramp";
+  if (fit.unidentifiable.empty()) return;
+  const double width = poissons_ratio_interval(fit);
+  const std::string told =
+      width <= open_ratio ? "every parameter (" + std::to_string(fit.unidentifiable.size()) +
+                                " direction" + (fit.unidentifiable.size() > 1 ? "s" : "") + " open)"
+                          : "Poisson's ratio (95 %: " +
+                                (width <= whole_ratio ? "+-" + rounded(width, 2)
+                                                      : "wider than -1 to 1/2, all there is") +
+                                "), and so not E and G one by one";
+  found.push_back("the data do not determine " + told + remedy);
+}
+
+void judge_material(Sentences& found, const FitRecord& record) {
+  for (const meshes::Violation& violation : record.material.violations())
+    found.push_back("the estimates are no rubber: " + to_string(violation));
+  const double e = record.material.rubber.youngs_modulus;
+  if (record.problem != "damping" && !(e >= softest && e <= hardest))
+    found.push_back("E = " + rounded(e, 3) +
+                    " Pa is no rubber's, which lies between 100 Pa and 10 GPa: check the units of "
+                    "the data");
+}
+
+}  // namespace
+
+double poissons_ratio_interval(const CurveFit& fit) {
+  if (!fit.poissons_ratio_error) return 0.0;
+  // Half width over a standard error, the same for all parameters.
+  const double quantile = (fit.upper(0) - fit.lower(0)) / (2.0 * fit.standard_errors(0));
+  return quantile * *fit.poissons_ratio_error;
+}
+
+std::vector<std::string> failed_tests(const FitRecord& record) {
+  Sentences found;
+  const CurveFit& fit = record.fit;
+  if (!fit.converged)
+    found.push_back("the search did not end within " + std::to_string(fit.evaluations) +
+                    (fit.evaluations == 1 ? " evaluation" : " evaluations") +
+                    ", and the estimates are the best seen so far: allow more, free "
+                    "fewer parameters, or leave out depths that the model does not resolve");
+  judge_misfit(found, record);
+  judge_touch(found, record);
+  judge_bounds(found, record);
+  judge_identifiability(found, record);
+  judge_material(found, record);
+  return found;
+}
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,238 @@
+#include "calibration/press_fit/lattice_forward_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "calibration/statistics/curve_residuals.h"
+#include "lattice/model/constants.h"
+#include "lattice/press/static_press.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
+#include "meshes/press/press_response.h"
+
+namespace fingertip::calibration {
+
+using lattice::ModelKind;
+using lattice::PressParameter;
+using lattice::PressSetup;
+
+namespace {
+
+/// The parameter of a press that is the same thing; none for E and G.
+std::optional<PressParameter> press_parameter(MaterialParameter parameter) {
+  switch (parameter) {
+    case MaterialParameter::youngs_modulus:
+    case MaterialParameter::shear_modulus:
+    case MaterialParameter::modulus: return std::nullopt;
+    case MaterialParameter::k1: return PressParameter::k1;
+    case MaterialParameter::k2: return PressParameter::k2;
+    case MaterialParameter::k3: return PressParameter::k3;
+    case MaterialParameter::kappa: return PressParameter::kappa;
+    case MaterialParameter::lame_shear: return PressParameter::shear_modulus;
+    case MaterialParameter::lambda: return PressParameter::lambda;
+    case MaterialParameter::bond: return PressParameter::bond;
+    case MaterialParameter::contact: return PressParameter::contact;
+    default: return std::nullopt;
+  }
+}
+
+bool is_tie(MaterialParameter parameter) {
+  return parameter == MaterialParameter::bond || parameter == MaterialParameter::contact;
+}
+
+bool model_has(const lattice::LatticeSettings& settings, MaterialParameter parameter) {
+  if (is_modulus(parameter))
+    return settings.model == ModelKind::hookean || settings.model == ModelKind::network;
+  const auto known = lattice::press_parameters(settings);
+  const auto same = press_parameter(parameter);
+  return same && std::ranges::find(known, *same) != known.end();
+}
+
+void check(const PressSetup& setup, const std::vector<MaterialParameter>& parameters) {
+  std::vector<meshes::Violation> found;
+  if (parameters.empty())
+    found.push_back({"parameters", "none", "a fit needs a free parameter", "name at least one"});
+  if (setup.protocol.slides_after())
+    found.push_back({"press.lateral_path", std::string(name(setup.protocol.lateral_path)),
+                     "forces are fitted against indentation", "choose diagonal"});
+  if (!setup.protocol.program.empty())
+    found.push_back({"press.program", "given",
+                     "forces are fitted against the indentation of one press", "leave it out"});
+  for (auto it = parameters.begin(); it != parameters.end(); ++it) {
+    if (!model_has(setup.lattice, *it))
+      found.push_back({"parameters", std::string(name(*it)),
+                       "the " + std::string(lattice::name(setup.lattice.model)) +
+                           " model does not depend on it, or not by a closed form",
+                       "hookean and network know E and G; others see press_parameters"});
+    if (std::find(parameters.begin(), it, *it) != it)
+      found.push_back({"parameters", std::string(name(*it)), "a parameter is named once",
+                       "remove the second one"});
+  }
+  const auto constant = [](MaterialParameter p) { return !is_modulus(p) && !is_tie(p); };
+  if (std::ranges::any_of(parameters, is_modulus) && std::ranges::any_of(parameters, constant))
+    found.push_back(
+        {"parameters", "a modulus beside a constant of the lattice",
+         "the rubber is described in one way: by E and G, or by the lattice's constants",
+         "choose one of them"});
+  if (std::ranges::find(parameters, MaterialParameter::modulus) != parameters.end() &&
+      std::ranges::count_if(parameters, is_modulus) > 1)
+    found.push_back({"parameters", "modulus beside E or G",
+                     "modulus is E at held Poisson's ratio, which E and G change",
+                     "free modulus alone, or E and G"});
+  if (!found.empty()) throw meshes::InvalidInput(found);
+}
+
+/// To so many decimals two Poisson's ratios are one: what E/(2G) - 1 makes of round-off.
+constexpr double ratio_steps = 1e13;
+
+PressSetup setup_of(const Curve& curve, PressSetup setup) {
+  const double depth = curve.x.back();
+  // The plane moves in proportion to the indentation.
+  if (setup.protocol.lateral != 0.0) setup.protocol.lateral *= depth / setup.protocol.depth;
+  setup.protocol.depth = depth;
+  setup.protocol.samples = curve.x;
+  return setup;
+}
+
+/// k1, k2, k3 mean the same rubber at one spacing only.
+void check_spacing(const std::vector<PressSetup>& conditions, const CurveFitOptions& options) {
+  const bool springs = std::ranges::any_of(
+      options.free, [](const FreeParameter& free) { return unit(free.parameter) == "N/m"; });
+  const auto& first = conditions.front().lattice;
+  for (const PressSetup& condition : conditions) {
+    const auto& lattice = condition.lattice;
+    if (!springs || (lattice.spacing == first.spacing && lattice.model == first.model)) continue;
+    throw meshes::InvalidInput(
+        {"lattice.spacing", meshes::to_text(lattice.spacing) + " m",
+         "constants of springs are common to curves of one model and spacing",
+         "take one lattice for all curves, or fit E and G"});
+  }
+}
+
+}  // namespace
+
+double value_of(MaterialParameter parameter, const PressSetup& setup) {
+  const lattice::SpringConstants& constants = setup.lattice.constants;
+  switch (parameter) {
+    case MaterialParameter::youngs_modulus:
+    case MaterialParameter::modulus: return setup.rubber.youngs_modulus;
+    case MaterialParameter::shear_modulus:
+    case MaterialParameter::lame_shear: return setup.rubber.shear_modulus;
+    case MaterialParameter::lambda: return setup.rubber.lame_lambda();
+    case MaterialParameter::k1: return constants.k1;
+    case MaterialParameter::k2: return constants.k2;
+    case MaterialParameter::k3: return constants.k3;
+    case MaterialParameter::kappa: return constants.kappa;
+    case MaterialParameter::bond: return setup.lattice.ligament_stiffness;
+    case MaterialParameter::contact: return setup.lattice.contact_stiffness;
+    case MaterialParameter::retardation_time: return setup.rubber.retardation_time;
+    default: return meshes::unknown;
+  }
+}
+
+LatticeForwardModel::LatticeForwardModel(PressSetup setup,
+                                         std::vector<MaterialParameter> parameters,
+                                         std::function<bool()> go_on)
+    : setup_(std::move(setup)), parameters_(std::move(parameters)), go_on_(std::move(go_on)) {
+  check(setup_, parameters_);
+  if (by_moduli()) {
+    using enum PressParameter;
+    press_parameters_ = setup_.lattice.model == ModelKind::network
+                            ? std::vector{shear_modulus, lambda}
+                            : std::vector{k1, k2, kappa};
+  }
+  for (const MaterialParameter parameter : parameters_)
+    if (const auto same = press_parameter(parameter)) press_parameters_.push_back(*same);
+}
+
+bool LatticeForwardModel::by_moduli() const {
+  return std::ranges::any_of(parameters_, is_modulus);
+}
+
+PressSetup LatticeForwardModel::setup_with(const Eigen::VectorXd& parameters) const {
+  PressSetup setup = setup_;
+  if (by_moduli()) setup.rubber = with_moduli(setup.rubber, parameters_, parameters);
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    if (const auto same = press_parameter(parameters_[i]))
+      set_value(*same, parameters(Eigen::Index(i)), setup);
+  // The closed form divides by 3G - E.
+  const auto broken = setup.rubber.violations();
+  if (!broken.empty()) throw meshes::InvalidInput(broken);
+  if (by_moduli() && setup.lattice.model == ModelKind::hookean)
+    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  return setup;
+}
+
+Eigen::MatrixXd LatticeForwardModel::chain(const PressSetup& setup) const {
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(Eigen::Index(press_parameters_.size()),
+                                                Eigen::Index(parameters_.size()));
+  const double a = setup.lattice.spacing;
+  const Eigen::RowVector2d lambda =
+      lambda_slopes(setup.rubber.youngs_modulus, setup.rubber.shear_modulus);
+  for (Eigen::Index j = 0; j < chain.cols(); ++j) {
+    const MaterialParameter parameter = parameters_[std::size_t(j)];
+    if (const auto same = press_parameter(parameter)) {
+      const auto row = std::ranges::find(press_parameters_, *same) - press_parameters_.begin();
+      chain(row, j) = 1.0;
+      continue;
+    }
+    const Eigen::Vector2d moduli = moduli_slopes(parameter, setup.rubber.poissons_ratio());
+    const double of_shear = moduli(1), of_lambda = lambda.dot(moduli);
+    if (setup.lattice.model == ModelKind::network)
+      chain.col(j).head<2>() << of_shear, of_lambda;
+    else
+      chain.col(j).head<3>() << a * of_shear, a * of_shear, of_lambda - of_shear;
+  }
+  return chain;
+}
+
+CurveSlopes LatticeForwardModel::press(const PressSetup& setup) const {
+  lattice::StaticObserver observer;
+  if (go_on_) observer = [this](const lattice::StaticOutcome&, double) { return go_on_(); };
+  const auto press = lattice::run_static_press_with_slopes(setup, press_parameters_, observer);
+  const auto& samples = press.outcome.response.samples();
+  CurveSlopes result;
+  result.value.resize(Eigen::Index(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    result.value(Eigen::Index(i)) = samples[i].normal_force;
+  result.jacobian = press.slopes.normal_force * chain(setup);
+  return result;
+}
+
+const CurveSlopes& LatticeForwardModel::at_ratio(double poissons_ratio) {
+  const auto known = by_ratio_.find(poissons_ratio);
+  if (known != by_ratio_.end()) return known->second;
+  PressSetup setup = setup_;
+  setup.rubber.youngs_modulus = 2.0 * setup.rubber.shear_modulus * (1.0 + poissons_ratio);
+  if (setup.lattice.model == ModelKind::hookean)
+    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  return by_ratio_[poissons_ratio] = press(setup);
+}
+
+CurveSlopes LatticeForwardModel::evaluate(const Eigen::VectorXd& parameters) {
+  const PressSetup setup = setup_with(parameters);
+  if (!std::ranges::all_of(parameters_, is_modulus)) return press(setup);
+  const double ratio = std::round(setup.rubber.poissons_ratio() * ratio_steps) / ratio_steps;
+  CurveSlopes result = at_ratio(ratio);
+  result.value *= setup.rubber.shear_modulus / setup_.rubber.shear_modulus;
+  return result;
+}
+
+CurveFit fit_presses(const std::vector<Curve>& curves, const std::vector<PressSetup>& conditions,
+                     const CurveFitOptions& options, const std::function<bool()>& go_on) {
+  check_curve_fit(curves, options);
+  if (conditions.size() != curves.size())
+    throw meshes::InvalidInput({"conditions", std::to_string(conditions.size()),
+                                "every curve needs its condition", "give one per curve"});
+  check_spacing(conditions, options);
+  std::vector<LatticeForwardModel> models;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    models.emplace_back(setup_of(curves[i], conditions[i]), parameters_in(options), go_on);
+  std::vector<ForwardModel*> addresses;
+  for (LatticeForwardModel& model : models) addresses.push_back(&model);
+  return fit_curves(curves, addresses, options);
+}
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,164 @@
+#include "calibration/press_fit/model_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "lattice/model/constants.h"
+#include "lattice/press/setup_fields.h"
+#include "lattice/press/static_press.h"
+#include "meshes/shape/solid.h"
+#include "meshes/tables/fields_json.h"
+#include "meshes/tables/interpolation.h"
+
+namespace fingertip::calibration {
+
+using Eigen::Index;
+using lattice::Kinematics;
+using lattice::ModelKind;
+using lattice::PressSetup;
+
+namespace {
+
+/// Sizes of the errors; their source is the header's.
+constexpr double contact_error = 0.17, contact_power = 3.0, contact_length = 0.5;
+constexpr double inside_error = 0.57, inside_power = 3.0;
+constexpr double tie_error = 0.003;
+constexpr double large_strain_error = 0.02;
+
+/// One force and where it is taken.
+struct Place {
+  const PressSetup* press = nullptr;
+  double depth = 0.0;
+  double pole_radius = 0.0, wall = 0.0;  ///< of the finger [m]
+
+  double cells() const { return std::sqrt(pole_radius * depth) / press->lattice.spacing; }
+  double contact() const {
+    return contact_error * std::min(1.0, std::pow(cells(), -contact_power));
+  }
+  double inside() const {
+    return inside_error * std::pow(press->lattice.spacing / wall, inside_power);
+  }
+  double large_strain() const {
+    if (press->lattice.kinematics == Kinematics::small) return 0.0;
+    return large_strain_error * std::pow(depth / press->geometry.thickness(), 2.0);
+  }
+};
+
+/// Of a solid, else empty.
+std::string content(const meshes::Geometry& geometry) {
+  return geometry.solid ? geometry.solid->content() : "";
+}
+
+bool same_cells(const PressSetup& a, const PressSetup& b) {
+  const auto place = [](const meshes::ProfileCorner& corner) {
+    return std::pair(corner.r, corner.z);
+  };
+  return a.lattice.spacing == b.lattice.spacing && a.lattice.offset == b.lattice.offset &&
+         a.lattice.axes == b.lattice.axes && a.protocol.tilt == b.protocol.tilt &&
+         a.geometry.tip_radius == b.geometry.tip_radius &&
+         content(a.geometry) == content(b.geometry) &&
+         std::ranges::equal(a.geometry.profile, b.geometry.profile, {}, place, place);
+}
+
+double covariance(const Place& a, const Place& b) {
+  double sum = tie_error * tie_error + a.large_strain() * b.large_strain();
+  if (a.press->lattice.spacing == b.press->lattice.spacing) sum += a.inside() * b.inside();
+  if (same_cells(*a.press, *b.press)) {
+    const double apart = std::abs(a.cells() - b.cells()) / contact_length;
+    sum += a.contact() * b.contact() * std::exp(-apart);
+  }
+  return sum;
+}
+
+/// Cells through the thickness, and depths between which the ratio of two theories is straight.
+constexpr double coarse_cells = 5.0;
+constexpr std::size_t coarse_depths = 8;
+
+std::vector<double> forces(PressSetup press, ModelKind model, Kinematics kinematics) {
+  press.lattice.model = model;
+  press.lattice.kinematics = kinematics;
+  press.lattice.constants = lattice::hookean_constants(press.rubber, press.lattice.spacing);
+  // A fit asks several times for the same press: when it is planned, checked and run.
+  static std::map<std::string, std::vector<double>> known;
+  static std::mutex one_at_a_time;
+  const std::string key = meshes::json_of(std::as_const(press)).dump();
+  {
+    const std::scoped_lock lock(one_at_a_time);
+    if (const auto found = known.find(key); found != known.end()) return found->second;
+  }
+  std::vector<double> result;
+  const lattice::StaticOutcome outcome = lattice::run_static_press(press);
+  for (const auto& sample : outcome.response.samples()) result.push_back(sample.normal_force);
+  const std::scoped_lock lock(one_at_a_time);
+  known.emplace(key, result);
+  return result;
+}
+
+/// Few cells and depths.
+void make_coarse(PressSetup& press) {
+  press.lattice.spacing =
+      std::min(press.geometry.thickness() / coarse_cells, press.geometry.coarsest_spacing());
+  press.rubber.youngs_modulus =
+      std::max(press.rubber.youngs_modulus, 2.0 * press.rubber.shear_modulus);
+  const double depth = press.protocol.samples.back();
+  press.protocol.samples.clear();
+  for (std::size_t i = 1; i <= coarse_depths; ++i)
+    press.protocol.samples.push_back(depth * double(i) / double(coarse_depths));
+  press.protocol.depth = press.protocol.samples.back();
+}
+
+/// Of `other` over `own`, known at the samples of `press`, at the `wanted` depths.
+Eigen::VectorXd excess(const PressSetup& press, const std::vector<double>& own,
+                       const std::vector<double>& other, const std::vector<double>& wanted) {
+  std::vector<double> depths{0.0}, ratio{0.0};
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    depths.push_back(press.protocol.samples[i]);
+    ratio.push_back(other[i] / own[i] - 1.0);
+  }
+  Eigen::VectorXd result{Index(wanted.size())};
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    result(Index(i)) = meshes::interpolated(depths, ratio, wanted[i]);
+  return result;
+}
+
+}  // namespace
+
+Eigen::MatrixXd lattice_covariance(const std::vector<PressSetup>& presses) {
+  std::vector<Place> places;
+  for (const PressSetup& press : presses) {
+    const auto shape = meshes::shape_of(press.geometry);
+    const double pole_radius = meshes::relative_radius(*shape, press.protocol.obstacle),
+                 wall = shape->wall();
+    for (const double depth : press.protocol.samples)
+      places.push_back({&press, depth, pole_radius, wall});
+  }
+  const Index count = Index(places.size());
+  Eigen::MatrixXd result(count, count);
+  for (Index i = 0; i < count; ++i)
+    for (Index j = 0; j <= i; ++j)
+      result(i, j) = result(j, i) = covariance(places[std::size_t(i)], places[std::size_t(j)]);
+  return result;
+}
+
+Eigen::VectorXd excess_of_finite_strain(PressSetup press) {
+  const std::vector<double> wanted = press.protocol.samples;
+  make_coarse(press);
+  return excess(press, forces(press, ModelKind::hookean, Kinematics::small),
+                forces(press, ModelKind::network, Kinematics::finite), wanted);
+}
+
+Eigen::VectorXd excess_of_other_contact(PressSetup press) {
+  const std::vector<double> wanted = press.protocol.samples;
+  make_coarse(press);
+  PressSetup other = press;
+  using enum meshes::ContactMode;
+  other.protocol.contact = press.protocol.contact == stick ? frictionless : stick;
+  return excess(press, forces(press, ModelKind::hookean, Kinematics::small),
+                forces(other, ModelKind::hookean, Kinematics::small), wanted);
+}
+
+}  // namespace fingertip::calibration

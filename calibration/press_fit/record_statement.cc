@@ -1,0 +1,285 @@
+/// The plain words of a fit to curves.
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/files/fit_file.h"
+#include "calibration/files/words.h"
+#include "calibration/material/open_branches.h"
+#include "calibration/press_fit/fit_record.h"
+#include "calibration/statistics/fit_statistics.h"
+
+namespace fingertip::calibration {
+
+using Eigen::Index;
+
+namespace {
+
+/// Signs of residuals that chance makes less often than this are told.
+constexpr double improbable = 0.01;
+/// A minimum whose chi-square is within this of the least one is as good (95 %, one parameter).
+constexpr double as_good = 3.84;
+
+std::string ratio_text(const CurveFit& fit) {
+  const auto estimate = [&](MaterialParameter parameter) {
+    return fit.estimates(std::ranges::find(fit.parameters, parameter) - fit.parameters.begin());
+  };
+  const double ratio = estimate(MaterialParameter::youngs_modulus) /
+                           (2.0 * estimate(MaterialParameter::shear_modulus)) -
+                       1.0;
+  const double width = poissons_ratio_interval(fit);
+  if (!(width <= open_ratio)) return "is not determined by these data";
+  return rounded(ratio, 3) + " +- " + rounded(width, 2);
+}
+
+std::string estimates(const CurveFit& fit) {
+  std::string text;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const MaterialParameter parameter = fit.parameters[i];
+    text += (text.empty() ? "" : "; ") + fit.labels[i] + " = " +
+            quantity_text(fit.estimates(Index(i)), unit(parameter));
+    const bool by_ratio = fit.poissons_ratio_bound && is_modulus(parameter);
+    if (by_ratio) continue;
+    const double lower = fit.lower(Index(i)), upper = fit.upper(Index(i));
+    const bool open = is_open(unit(parameter), fit.estimates(Index(i)), lower, upper);
+    text += fit.at_bound[i] ? " (at its bound)"
+            : open          ? " (open: the 95 % interval exceeds it)"
+                            : " (95 %: " + rounded(lower, 5) + " to " + rounded(upper, 5) + ")";
+  }
+  if (fit.poissons_ratio_bound)
+    text += "; Poisson's ratio is at its bound, " + rounded(*fit.poissons_ratio_bound, 5) +
+            ", so that E and G have no intervals of their own";
+  else if (fit.poissons_ratio_error)
+    text += "; Poisson's ratio " + ratio_text(fit);
+  return text + ".";
+}
+
+std::string misfit(const FitRecord& record) {
+  std::vector<double> residuals, values;
+  bool travel = false;
+  for (std::size_t c = 0; c < record.curves.size(); ++c) {
+    const Curve& curve = record.curves[c];
+    const Eigen::VectorXd& own = own_residuals(record, c);
+    residuals.insert(residuals.end(), own.begin(), own.end());
+    values.insert(values.end(), curve.y.begin(), curve.y.end());
+    travel = travel || curve.is_travel;
+  }
+  const double missed =
+      relative_rms(Eigen::VectorXd::Map(residuals.data(), Index(residuals.size())),
+                   Eigen::VectorXd::Map(values.data(), Index(values.size())));
+  if (std::isnan(missed)) return " All data are zero: there is nothing to be met.";
+  std::string text = " The fit meets the data within " + percent(missed) + " (" +
+                     std::string(name_of_relative_rms) + "), every single value within " +
+                     percent(worst_relative_residual(record)) +
+                     (travel ? " of its curve's largest." : " of itself.");
+  const CurveFit& fit = record.fit;
+  if (!fit.chi_square || !fit.chi_square_probability) return text;
+  text += " Chi-square is " + rounded(*fit.chi_square, 3) + " at " +
+          std::to_string(fit.degrees_of_freedom) + " degrees of freedom";
+  const std::string known =
+      "the stated deviations" + (record.model_error.empty() ? "" : " and " + record.model_error);
+  if (fit.birge_ratio > 1.0)
+    return text + ": more than " + known + " explain (probability " +
+           rounded(*fit.chi_square_probability, 2) +
+           "). The model does not describe the data, or the deviations are too small; the "
+           "intervals are wider by Birge's ratio, " +
+           rounded(fit.birge_ratio, 2) + ".";
+  return text + ", which " + known + " explain (probability " +
+         rounded(*fit.chi_square_probability, 2) + ").";
+}
+
+/// What scatters between repeats is no error of the model.
+std::string repeats(const FitRecord& record) {
+  std::string text;
+  for (const Repeats& group : record.repeats)
+    if (group.deviation > 0.0)
+      text += " The " + std::to_string(group.curves.size()) + " repeats of " +
+              record.curves[group.curves.front()].name + " differ by " + percent(group.deviation) +
+              " (standard deviation of a factor on the force of each): what is found is that of "
+              "their mean, and the intervals follow from so many.";
+  return text;
+}
+
+std::string open_directions(const CurveFit& fit) {
+  std::string text;
+  for (const Direction& direction : fit.unidentifiable)
+    text += " Not determined by the data: " + direction.statement + ".";
+  for (const Direction& direction : fit.only_from_priors)
+    text += " Known from the prior, not from the data: " + direction.statement + ".";
+  return text;
+}
+
+std::string other_minima(const CurveFit& fit) {
+  const auto best = std::ranges::min_element(fit.minima, {}, &Minimum::loss);
+  for (const Minimum& minimum : fit.minima) {
+    const bool same =
+        (minimum.estimates - best->estimates).cwiseQuotient(best->estimates).cwiseAbs().maxCoeff() <
+        0.01;
+    if (same || 2.0 * (minimum.loss - best->loss) > as_good || !fit.chi_square) continue;
+    std::string text = " Another answer describes the data as well:";
+    for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+      text += " " + fit.labels[i] + " = " +
+              quantity_text(minimum.estimates(Index(i)), unit(fit.parameters[i]));
+    return text + ".";
+  }
+  return "";
+}
+
+std::string structures(const FitRecord& record) {
+  std::string text;
+  for (std::size_t c = 0; c < record.curves.size(); ++c) {
+    const ResidualStructure structure = structure_of(record, c);
+    if (structure.probability < improbable)
+      text += " " + record.curves[c].name + ": " + structure.statement + ".";
+  }
+  if (record.fit.order_ratio > 1.0)
+    text += " Values whose errors follow each other tell less: the intervals are wider by " +
+            rounded(record.fit.order_ratio, 2) + " for that.";
+  return text;
+}
+
+/// Less of the loading's work than this is friction of a machine, too.
+constexpr double told_loop = 0.02;
+
+/// Of a rubber that relaxes: its branches, what its moduli are, which of them the curves do not
+/// tell.
+std::string fading(const FitRecord& record) {
+  const meshes::Relaxation& relaxation = record.material.rubber.relaxation;
+  if (relaxation.empty()) return "";
+  std::string text = " The rubber relaxes by";
+  for (const meshes::RelaxationBranch& branch : relaxation.branches)
+    text += std::string(&branch == relaxation.branches.data() ? " " : " and ") +
+            percent(branch.share) + " in " + rounded(branch.time, 3) + " s";
+  text += ": what is found holds after long times, at once it is " +
+          rounded(relaxation.instant(), 4) + " times stiffer.";
+  if (!record.observed_times) return text;
+  for (const std::string& open : open_branches(relaxation, *record.observed_times))
+    text += " Not told by the data: " + open + ".";
+  return text;
+}
+
+/// Loadings alone are fitted: what they hide of time is said whether they are met or not.
+std::string loops(const FitRecord& record) {
+  std::string text;
+  for (const Curve& curve : record.curves) {
+    if (curve.course.loop < -told_loop)
+      text += " " + curve.name + ": the way back lies above the loading by " +
+              percent(-curve.course.loop) +
+              " of its work: not the rubber, which gives back no more than it took, but " +
+              quantity_text(curve.course.play, "m", 2) +
+              " of play or lag of the machine's travel; the loading alone is fitted, whose touch "
+              "takes it up.";
+    if (!(curve.course.loop > told_loop) || !record.material.rubber.relaxation.empty()) continue;
+    text += " " + curve.name + ": loading and unloading differ by a loop of " +
+            percent(curve.course.loop) +
+            " of the loading's work, usually because the rubber relaxes; what is found holds for "
+            "this speed, and a rubber at rest is softer";
+    text += curve.course.relaxation > 0.0
+                ? " (by " + percent(curve.course.relaxation) + " in the longest hold)."
+                : " (by how much a hold would tell).";
+  }
+  return text;
+}
+
+/// How many times the interval of parameter `i` would narrow by a rigid blank pressed to the same
+/// forces, f = (x - x0)/c with a touch x0 of its own, which shows the compliance `j` alone.
+double narrowed_by_blank(const FitRecord& record, Index i, Index j) {
+  const CurveFit& fit = record.fit;
+  std::vector<double> forces, deviations;
+  for (std::size_t c = 0; c < record.curves.size(); ++c) {
+    const Curve& curve = record.curves[c];
+    for (std::size_t k = 0; k < curve.y.size(); ++k) {
+      forces.push_back(curve.y[k]);
+      deviations.push_back(curve.sigma.empty() ? fit.residual_deviation : curve.sigma[k]);
+    }
+  }
+  const Index count = Index(forces.size());
+  const Eigen::VectorXd force = Eigen::VectorXd::Map(forces.data(), count),
+                        weight = Eigen::VectorXd::Map(deviations.data(), count).cwiseInverse();
+  // A blank on a rigid machine has no travel at all: then the compliance is known.
+  const double soft = std::max(std::abs(fit.estimates(j)), 1e-6 * fit.standard_errors(j));
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count, fit.estimates.size());
+  rows.col(j) = -force.cwiseProduct(weight) / soft;
+  return 1.0 / narrowing(fit.covariance, rows, -weight / soft)(i);
+}
+
+/// Compliances take their share of a travel as a softer rubber does.
+std::string collinearity(const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  std::string text;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
+      const bool pair =
+          is_of_the_rubber(fit.parameters[i]) && fit.parameters[j] == MaterialParameter::compliance;
+      if (!pair || fit.parameters[i] == MaterialParameter::shear_modulus) continue;
+      const double correlation = fit.correlation(Index(i), Index(j));
+      const double times = 1.0 / std::sqrt(std::max(1e-12, 1.0 - correlation * correlation));
+      if (times < much_wider) continue;
+      text += " " + fit.labels[i] + " and " + fit.labels[j] +
+              " are nearly collinear (correlation " + rounded(correlation, 3) +
+              "): if the compliance were known, the interval of " + fit.labels[i] + " would be " +
+              rounded(times, 2) +
+              " times narrower. What tells them apart: a rigid blank in place of the finger, which "
+              "shows the compliance alone (pressed to the same forces it would make the interval " +
+              rounded(narrowed_by_blank(record, Index(i), Index(j)), 2) +
+              " times narrower); a press against another obstacle; a deeper one.";
+    }
+  return text;
+}
+
+/// What a machine gives way is the one value of a rig that a stiffness cannot be told from, so
+/// where nobody has given it that is said.
+std::string assumptions(const FitRecord& record) {
+  std::string text;
+  for (const RigValue& value : record.rig)
+    if (value.quantity == MaterialParameter::compliance && !value.place && !value.given)
+      text += " No compliance of " + (value.of.empty() ? "the machine" : value.of) +
+              " is given: it is taken as rigid; if it gives way, the rubber is stiffer than told.";
+  return text;
+}
+
+/// A cause counts as told by data where chance makes its decrease less often than this.
+constexpr double by_no_chance = 1e-3;
+
+/// How much of it there would be: an absurd amount shows that it is not the cause.
+std::string amount_of(const Accusation& each) {
+  return each.unit == "1" ? percent(each.amount) + " of " + each.share_of
+                          : quantity_text(each.amount, each.unit, 3);
+}
+
+/// What freeing the gravest suspects would do, where the fit misses its data.
+std::string lack_of_fit(const FitRecord& record) {
+  bool missed = record.fit.birge_ratio > 1.0;
+  if (!record.fit.chi_square_probability)
+    for (std::size_t c = 0; c < record.curves.size(); ++c)
+      missed = missed || structure_of(record, c).probability < improbable;
+  if (!missed) return "";
+  const auto all = record.fit.chi_square.value_or(record.fit.degrees_of_freedom);
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(record.lack_of_fit.size(), 3); ++i) {
+    const Accusation& each = record.lack_of_fit[i];
+    if (each.probability > by_no_chance) break;
+    const std::string named = each.name + (each.of.empty() ? "" : " (" + each.of + ")");
+    text += (i == 0 ? " What is missed looks most like " : "; then ") + named +
+            ", which alone would "
+            "take away " +
+            percent(std::min(1.0, each.decrease / all)) + " of the misfit (" + amount_of(each) +
+            ": " + each.cause + ")";
+  }
+  return text.empty() ? text : text + ".";
+}
+
+}  // namespace
+
+std::string fit_statement(const FitRecord& record) {
+  std::string text;
+  for (const std::string& failed : failed_tests(record)) text += "Not accepted: " + failed + ". ";
+  text += estimates(record.fit) + misfit(record) + repeats(record) + open_directions(record.fit) +
+          other_minima(record.fit) + collinearity(record) + assumptions(record) +
+          structures(record) + fading(record) + loops(record) + lack_of_fit(record);
+  const std::string next =
+      prospect_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
+  if (!next.empty()) text += " " + next;
+  return text;
+}
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,195 @@
+#include "calibration/press_fit/repeats.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "calibration/statistics/fit_statistics.h"
+#include "meshes/tables/interpolation.h"
+
+namespace fingertip::calibration {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr std::size_t scatter_points = 40;
+
+Index first_row(const std::vector<Curve>& curves, std::size_t curve) {
+  Index row = 0;
+  for (std::size_t i = 0; i < curve; ++i) row += Index(curves[i].y.size());
+  return row;
+}
+
+Index row_count(const std::vector<Curve>& curves) {
+  return first_row(curves, curves.size());
+}
+
+VectorXd values_of(const Curve& curve) {
+  return VectorXd::Map(curve.y.data(), Index(curve.y.size()));
+}
+
+/// The fitted force of one curve over its zero, among all values.
+VectorXd force_of_curve(const std::vector<Curve>& curves, const CurveFit& fit,
+                        const std::vector<VectorXd>& zero, std::size_t curve) {
+  VectorXd all = VectorXd::Zero(row_count(curves));
+  all.segment(first_row(curves, curve), zero[curve].size()) =
+      values_of(curves[curve]) - fit.residuals[curve] - zero[curve];
+  return all;
+}
+
+/// Factors by linear least squares beside what each repeat has for itself; how the parameters then
+/// change.
+VectorXd fit_factors(Repeats& repeats, const std::vector<Curve>& curves, const CurveFit& fit,
+                     const std::vector<std::size_t>& nuisance, const std::vector<VectorXd>& zero) {
+  const Index rows = row_count(curves), count = Index(repeats.curves.size());
+  VectorXd residuals = VectorXd::Zero(rows);
+  Index values = 0;
+  for (const std::size_t curve : repeats.curves) {
+    residuals.segment(first_row(curves, curve), fit.residuals[curve].size()) = fit.residuals[curve];
+    values += fit.residuals[curve].size();
+  }
+  MatrixXd columns(rows, count + Index(nuisance.size()));
+  for (Index k = 0; k < count; ++k)
+    columns.col(k) =
+        fit.whitening * force_of_curve(curves, fit, zero, repeats.curves[std::size_t(k)]);
+  Index used = count;
+  std::vector<std::size_t> places;
+  for (const std::size_t parameter : nuisance) {
+    // Only the group's rows: others have theirs.
+    VectorXd column = VectorXd::Zero(rows);
+    for (const std::size_t curve : repeats.curves) {
+      const Index from = first_row(curves, curve), size = Index(curves[curve].y.size());
+      column.segment(from, size) = fit.jacobian.col(Index(parameter)).segment(from, size);
+    }
+    if (!(column.norm() > 0.0)) continue;
+    columns.col(used++) = column;
+    places.push_back(parameter);
+  }
+  const MatrixXd used_columns = columns.leftCols(used);
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(used_columns);
+  const VectorXd target = fit.whitening * residuals, found = qr.solve(target);
+  const MatrixXd covariance =
+      (used_columns.transpose() * used_columns).completeOrthogonalDecomposition().pseudoInverse();
+  const Index freedom = std::max<Index>(1, values - used);
+  const double variance = (target - used_columns * found).squaredNorm() / double(freedom);
+  // Where sigma was given residuals should be 1; of larger ones the data speak themselves.
+  const double scale = fit.chi_square ? std::max(1.0, variance) : variance;
+  for (Index k = 0; k < count; ++k) {
+    repeats.factors.push_back(1.0 + found(k));
+    repeats.factor_errors.push_back(std::sqrt(scale * covariance(k, k)));
+  }
+  VectorXd changes = VectorXd::Zero(fit.estimates.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    changes(Index(places[i])) = found(count + Index(i));
+  return changes;
+}
+
+/// Method of moments.
+void find_deviation(Repeats& repeats) {
+  const auto count = double(repeats.factors.size());
+  double sum = 0.0, squares = 0.0, weighted = 0.0;
+  for (std::size_t k = 0; k < repeats.factors.size(); ++k) {
+    const double weight =
+        1.0 / std::max(std::pow(repeats.factor_errors[k], 2), std::numeric_limits<double>::min());
+    sum += weight, squares += weight * weight, weighted += weight * repeats.factors[k];
+  }
+  double q = 0.0;
+  for (std::size_t k = 0; k < repeats.factors.size(); ++k)
+    q += std::pow((repeats.factors[k] - weighted / sum) / repeats.factor_errors[k], 2);
+  if (!std::isfinite(q)) return;
+  repeats.probability = chi_square_above(q, int(count) - 1);
+  repeats.deviation = std::sqrt(std::max(0.0, (q - (count - 1.0)) / (sum - squares / sum)));
+}
+
+/// Forces at equal travels since touch.
+void tell_scatter(Repeats& repeats, const std::vector<Curve>& curves,
+                  const std::vector<double>& touch, const std::vector<VectorXd>& zero) {
+  double end = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : repeats.curves) end = std::min(end, curves[i].x.back() - touch[i]);
+  if (!(end > 0.0)) return;
+  const auto count = double(repeats.curves.size());
+  for (std::size_t point = 1; point <= scatter_points; ++point) {
+    const double at = end * double(point) / double(scatter_points);
+    std::vector<double> forces;
+    double noise = 0.0, mean = 0.0, squares = 0.0;
+    for (const std::size_t i : repeats.curves) {
+      const VectorXd net = values_of(curves[i]) - zero[i];
+      const std::vector<double> force(net.begin(), net.end());
+      forces.push_back(meshes::interpolated(curves[i].x, force, at + touch[i]));
+      mean += forces.back() / count;
+      noise += std::pow(curves[i].course.noise, 2) / count;
+    }
+    for (const double each : forces) squares += std::pow(each - mean, 2);
+    repeats.travel.push_back(at);
+    repeats.mean.push_back(mean);
+    repeats.scatter.push_back(std::sqrt(squares / (count - 1.0)));
+    repeats.noise.push_back(std::sqrt(noise));
+  }
+}
+
+}  // namespace
+
+Repeats repeats_of(const std::vector<std::size_t>& group, const std::vector<Curve>& curves,
+                   const CurveFit& fit, const std::vector<std::size_t>& nuisance,
+                   const std::vector<RigQuantity>& touch, const std::vector<VectorXd>& zero) {
+  Repeats repeats;
+  repeats.curves = group;
+  const VectorXd own = fit.estimates + fit_factors(repeats, curves, fit, nuisance, zero);
+  find_deviation(repeats);
+  std::vector<double> touches;
+  for (const RigQuantity& each : touch) touches.push_back(each.in(own));
+  tell_scatter(repeats, curves, touches, zero);
+  return repeats;
+}
+
+CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
+               const std::vector<Curve>& curves, const std::vector<VectorXd>& zero) {
+  CurveFit result = fit;
+  Index count = 0;
+  for (const Repeats& group : repeats) count += Index(group.curves.size());
+  const Index rows = fit.jacobian.rows(), parameters = fit.jacobian.cols();
+  // A common factor is the modulus' own.
+  const int freedom = fit.degrees_of_freedom - int(count) + int(repeats.size());
+  if (fit.chi_square || count == 0 || freedom < 1) return result;
+  result.jacobian.conservativeResize(rows, parameters + count);
+  VectorXd residuals(rows);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    residuals.segment(first_row(curves, i), fit.residuals[i].size()) = fit.residuals[i];
+  Index column = parameters;
+  for (const Repeats& group : repeats)
+    for (const std::size_t curve : group.curves)
+      result.jacobian.col(column++) = fit.whitening * force_of_curve(curves, fit, zero, curve);
+  // Columns differ in their units.
+  const VectorXd sizes = result.jacobian.colwise().norm().cwiseMax(1e-300).transpose();
+  const MatrixXd scaled = result.jacobian * sizes.cwiseInverse().asDiagonal();
+  const VectorXd all = fit.whitening * residuals;
+  const VectorXd left = all - scaled * scaled.completeOrthogonalDecomposition().solve(all);
+  const VectorXd plain = fit.whitening.ldlt().solve(left);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    result.residuals[i] = plain.segment(first_row(curves, i), fit.residuals[i].size());
+  // Their variance is told by what is left.
+  const double scale = std::sqrt(double(freedom) / std::max(left.squaredNorm(), 1e-300));
+  result.whitening *= scale;
+  result.jacobian *= scale;
+  result.degrees_of_freedom = freedom;
+  return result;
+}
+
+MatrixXd covariance_of(const std::vector<Repeats>& repeats, const std::vector<Curve>& curves,
+                       const CurveFit& fit, const std::vector<VectorXd>& zero) {
+  const Index rows = row_count(curves);
+  MatrixXd covariance = MatrixXd::Zero(rows, rows);
+  for (const Repeats& group : repeats)
+    for (const std::size_t curve : group.curves) {
+      const VectorXd force = group.deviation * force_of_curve(curves, fit, zero, curve);
+      covariance += force * force.transpose();
+    }
+  return covariance;
+}
+
+}  // namespace fingertip::calibration

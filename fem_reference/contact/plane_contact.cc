@@ -1,0 +1,346 @@
+#include "fem_reference/contact/plane_contact.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "meshes/base/errors.h"
+
+namespace fingertip::fem_reference::inline contact {
+namespace {
+
+using meshes::ContactMode;
+
+constexpr int max_rounds = 400;
+/// Rounds without progress after which offenders are changed one at a time.
+constexpr int patience = 8;
+/// Penetration below this length [m] is round-off: a picometre.
+constexpr double gap_noise = 1e-12;
+/// Friction forces have converged when a round changes none by more than this, over the largest
+/// push.
+constexpr double friction_converged = 1e-9;
+/// Rounds after which friction forces are changed by half of what they should be.
+constexpr int friction_patience = 60;
+
+/// Itself for a node with area, the nearest of those for one without; itself where there is none.
+std::vector<std::size_t> leaders_of(const std::vector<SurfaceNode>& nodes) {
+  std::vector<std::size_t> leaders(nodes.size());
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    leaders[node] = node;
+    if (nodes[node].area > 0.0) continue;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t other = 0; other < nodes.size(); ++other) {
+      const double distance = (nodes[other].position - nodes[node].position).norm();
+      if (nodes[other].area > 0.0 && distance < nearest) {
+        nearest = distance;
+        leaders[node] = other;
+      }
+    }
+  }
+  return leaders;
+}
+
+}  // namespace
+
+PlaneContact::PlaneContact(ContactUnknowns unknowns, ContactMode mode, const PlanePose& start,
+                           double friction, double shear_modulus, const meshes::Obstacle& obstacle,
+                           bool finite)
+    : unknowns_(std::move(unknowns)),
+      leaders_(leaders_of(unknowns_.nodes)),
+      mode_(mode),
+      friction_(friction),
+      shear_modulus_(shear_modulus),
+      obstacle_(obstacle),
+      frames_(finite && !obstacle.is_plane() ? unknowns_.nodes.size() : 0) {
+  const std::size_t nodes = unknowns_.nodes.size();
+  const auto zero = Eigen::VectorXd::Zero(Eigen::Index(unknowns_.unknowns.size()));
+  committed_ = {start, std::vector<NodeStatus>(nodes, NodeStatus::open),
+                std::vector<std::array<double, 3>>(nodes, {0.0, 0.0, 0.0}), zero, zero};
+  trial_ = committed_;
+}
+
+void PlaneContact::restore(State state) {
+  committed_ = std::move(state);
+  trial_ = committed_;
+  if (curved()) linearise(committed_.displacement, committed_.pose);
+}
+
+void PlaneContact::commit() {
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    if (trial_.status[node] == NodeStatus::slide) {  // the next slip starts here
+      anchor(node, trial_.displacement, 1.0);
+    }
+  committed_ = trial_;
+}
+
+int PlaneContact::active_nodes() const {
+  return int(trial_.status.size()) - int(std::ranges::count(trial_.status, NodeStatus::open));
+}
+
+meshes::Vector3 PlaneContact::of_node(std::size_t node, const Eigen::VectorXd& values) const {
+  meshes::Vector3 result = meshes::Vector3::Zero();
+  for (int c = 0; c < 3; ++c) {
+    const int position = unknowns_.of_node[node][std::size_t(c)];
+    if (position >= 0) result[c] = values[position];
+  }
+  return result;
+}
+
+void PlaneContact::set_node(std::size_t node, const meshes::Vector3& value,
+                            Eigen::VectorXd& values) const {
+  for (int c = 0; c < 3; ++c) {
+    const int position = unknowns_.of_node[node][std::size_t(c)];
+    if (position >= 0) values[position] = value[c];
+  }
+}
+
+meshes::Vector3 PlaneContact::reaction(std::size_t node) const {
+  return axes(node).transpose() * own_reaction(node);
+}
+
+Eigen::VectorXd PlaneContact::in_plane_axes(const Eigen::VectorXd& values) const {
+  if (!curved()) return values;
+  Eigen::VectorXd result = values;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    set_node(node, axes(node).transpose() * of_node(node, values), result);
+  return result;
+}
+
+PlaneContact::Facing PlaneContact::facing(const meshes::Vector3& rest,
+                                          const meshes::Vector3& displacement,
+                                          const PlanePose& pose) const {
+  const meshes::Vector3 out(0.0, 0.0, -1.0);
+  const double over = pose.height - rest.z() - displacement.z();
+  if (!curved()) return {over - height(obstacle_, {rest.x() - pose.shift, rest.y(), 0.0}), out};
+  const auto found =
+      hit(obstacle_, {rest.x() + displacement.x() - pose.shift, rest.y() + displacement.y(), over});
+  return {found.gap, {found.normal[0], found.normal[1], -found.normal[2]}};
+}
+
+double PlaneContact::reach(std::size_t node) const {
+  if (curved()) return frames_[node].reach;
+  return facing(node, meshes::Vector3::Zero(), trial_.pose).gap;
+}
+
+double PlaneContact::linearise(const Eigen::VectorXd& displacement, const PlanePose& pose) {
+  double largest = 0.0;
+  for (std::size_t node = 0; node < frames_.size(); ++node) {
+    const meshes::Vector3 at = of_node(node, displacement);
+    const Facing now = facing(node, at, pose);
+    // The shortest turn: in a plane of symmetry, which holds the normal, it is about the axis
+    // across.
+    Frame& frame = frames_[node];
+    frame.axes = Eigen::Quaterniond::FromTwoVectors(-now.normal, meshes::Vector3::UnitZ())
+                     .toRotationMatrix();
+    frame.reach = now.gap + (frame.axes * at).z();
+    if (!is_open(node)) largest = std::max(largest, std::abs(now.gap));
+  }
+  return largest;
+}
+
+std::vector<NodeAxes> PlaneContact::axes() const {
+  std::vector<NodeAxes> result(frames_.size());
+  for (std::size_t node = 0; node < result.size(); ++node) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int position = unknowns_.of_node[node][c];
+      if (position >= 0) result[node].unknown[c] = unknowns_.unknowns[std::size_t(position)];
+    }
+    result[node].axes = frames_[node].axes;
+  }
+  return result;
+}
+
+Eigen::VectorXd PlaneContact::out_of_balance(const Eigen::VectorXd& force) const {
+  Eigen::VectorXd result = force;
+  for (std::size_t node = 0; curved() && node < frames_.size(); ++node)
+    set_node(node, axes(node) * of_node(node, force), result);
+  result -= trial_.reaction;
+  const std::vector<char> fixed = held();
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (fixed[i]) result[Eigen::Index(i)] = 0.0;
+  return result;
+}
+
+std::vector<char> PlaneContact::held() const {
+  std::vector<char> result(unknowns_.unknowns.size(), 0);
+  for (std::size_t node = 0; node < trial_.status.size(); ++node) {
+    if (trial_.status[node] == NodeStatus::open) continue;
+    for (std::size_t c = trial_.status[node] == NodeStatus::stick ? 0 : 2; c < 3; ++c) {
+      const int position = unknowns_.of_node[node][c];
+      if (position >= 0) result[std::size_t(position)] = 1;
+    }
+  }
+  return result;
+}
+
+meshes::Vector3 PlaneContact::held_at(std::size_t node) const {
+  const std::array<double, 3>& anchor = trial_.anchors[node];
+  meshes::Vector3 place = axes(node) * meshes::Vector3(anchor[0] + trial_.pose.shift, anchor[1],
+                                                       anchor[2] + trial_.pose.height);
+  if (obstacle_.is_plane()) place.z() = reach(node);
+  return place;
+}
+
+ConstrainedSolution PlaneContact::solve(ContactSolver& solver) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(trial_.displacement.size());
+  Eigen::VectorXd loads = values;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node) {
+    if (trial_.status[node] == NodeStatus::open) continue;
+    const bool slides = trial_.status[node] == NodeStatus::slide;
+    meshes::Vector3 place = held_at(node);
+    if (slides) place.z() = reach(node);
+    set_node(node, place, values);
+    if (slides) {
+      meshes::Vector3 friction = own_reaction(node);
+      friction.z() = 0.0;
+      set_node(node, friction, loads);
+    }
+  }
+  return solver.solve_constrained(held(), values, loads);
+}
+
+std::vector<std::size_t> PlaneContact::offenders(const ConstrainedSolution& solution,
+                                                 double noise) const {
+  // Both thresholds sit above the solver's noise, or nodes that barely touch would flicker.
+  const double pull =
+      solution.reaction.size() ? noise * solution.reaction.cwiseAbs().maxCoeff() : 0.0;
+  const double depth = std::max(gap_noise, solution.displacement.size()
+                                               ? noise * solution.displacement.cwiseAbs().maxCoeff()
+                                               : 0.0);
+  // What a node without area carries counts for the one that it follows.
+  std::vector<double> reactions(trial_.status.size(), 0.0);
+  for (std::size_t node = 0; node < reactions.size(); ++node) {
+    const double own = solution.reaction[unknowns_.of_node[node][2]];
+    reactions[node] += own;
+    if (follows(node)) reactions[leader(node)] += own;
+  }
+  std::vector<std::size_t> result;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node) {
+    const bool penetrates = gap_of_solution(node, solution.displacement) < -depth;
+    bool wrong = is_open(node) ? penetrates : reactions[node] > pull;
+    if (follows(node)) {
+      const bool led = !is_open(leader(node));
+      wrong = is_open(node) ? led || (wrong && releases_[node] == 0) : wrong && !led;
+    }
+    if (wrong) result.push_back(node);
+  }
+  return result;
+}
+
+void PlaneContact::anchor(std::size_t node, const Eigen::VectorXd& trial, double time) {
+  const auto between = [time](const auto& start, const auto& end) {
+    return (1.0 - time) * start + time * end;
+  };
+  const PlanePose pose{between(committed_.pose.height, trial_.pose.height),
+                       between(committed_.pose.shift, trial_.pose.shift)};
+  const meshes::Vector3 start = of_node(node, committed_.displacement);
+  meshes::Vector3 place = start + time * (of_node(node, trial) - start);
+  // On the obstacle: of what is curved, the way there is not quite straight.
+  const Facing left = facing(node, place, pose);
+  place -= left.gap * left.normal;
+  trial_.anchors[node] = {place.x() - pose.shift, place.y(), place.z() - pose.height};
+}
+
+void PlaneContact::change(std::size_t node, const ConstrainedSolution& solution) {
+  const auto& of_node = unknowns_.of_node[node];
+  NodeStatus& status = trial_.status[node];
+  for (std::size_t c = 0; c < 2; ++c)
+    if (of_node[c] >= 0) trial_.reaction[of_node[c]] = 0.0;
+  if (status != NodeStatus::open) {
+    status = NodeStatus::open;
+    ++releases_[node];
+    return;
+  }
+  const double before = std::max(0.0, gap(node, committed_.displacement, committed_.pose));
+  const double after = gap_of_solution(node, solution.displacement);
+  const bool twice = mode_ == ContactMode::stick && releases_[node] > 1;
+  anchor(node, in_plane_axes(solution.displacement), twice ? 1.0 : before / (before - after));
+  status = mode_ == ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
+}
+
+void PlaneContact::touch_at_start() {
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    if (trial_.status[node] == NodeStatus::open &&
+        gap(node, committed_.displacement, committed_.pose) <= gap_noise) {
+      trial_.status[node] =
+          mode_ == ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
+      anchor(node, committed_.displacement, 0.0);
+    }
+}
+
+double PlaneContact::update_friction(const ConstrainedSolution& solution, double relaxation,
+                                     double noise) {
+  double largest_push = 0.0, largest_change = 0.0;
+  // A node that the solver's noise alone puts beyond Coulomb's limit, or below, stays what it is.
+  double slack = 0.0;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    if (!is_open(node))
+      slack = std::max(slack, -noise * friction_ * solution.reaction[unknowns_.of_node[node][2]]);
+  for (std::size_t node = 0; node < trial_.status.size(); ++node) {
+    if (trial_.status[node] == NodeStatus::open) continue;
+    const auto& of_node = unknowns_.of_node[node];
+    const double push = std::max(0.0, -solution.reaction[of_node[2]]);
+    largest_push = std::max(largest_push, push);
+    const bool sliding = trial_.status[node] == NodeStatus::slide;
+    const double rho = shear_modulus_ * unknowns_.nodes[node].extent;
+    Eigen::Vector2d force = Eigen::Vector2d::Zero(), wanted = force;
+    const meshes::Vector3 start = held_at(node);
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (of_node[c] < 0) continue;
+      force[Eigen::Index(c)] = wanted[Eigen::Index(c)] = solution.reaction[of_node[c]];
+      const double slip = solution.displacement[of_node[c]] - start[Eigen::Index(c)];
+      if (sliding) wanted[Eigen::Index(c)] -= rho * slip;
+    }
+    const double margin = std::max(slack, friction_converged * friction_ * push);
+    if (wanted.norm() <= friction_ * push + (sliding ? -margin : margin)) {
+      if (sliding) largest_change = std::numeric_limits<double>::infinity();
+      trial_.status[node] = NodeStatus::stick;
+      continue;
+    }
+    if (!sliding) largest_change = std::numeric_limits<double>::infinity();
+    trial_.status[node] = NodeStatus::slide;
+    const Eigen::Vector2d limit = friction_ * push * wanted.normalized();
+    const Eigen::Vector2d next =
+        sliding ? Eigen::Vector2d(force + relaxation * (limit - force)) : limit;
+    largest_change = std::max(largest_change, (next - force).norm());
+    for (std::size_t c = 0; c < 2; ++c)
+      if (of_node[c] >= 0) trial_.reaction[of_node[c]] = next[Eigen::Index(c)];
+  }
+  return largest_push > 0.0 ? largest_change / largest_push : 0.0;
+}
+
+ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) {
+  ContactEffort effort;
+  trial_.pose = pose;
+  releases_.assign(trial_.status.size(), 0);
+  touch_at_start();
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  int stalled = 0;
+  while (effort.rounds < max_rounds) {
+    const ConstrainedSolution solution = solve(solver);
+    ++effort.rounds;
+    effort.cg_iterations += solution.cg_iterations;
+    std::vector<std::size_t> wrong = offenders(solution, solver.noise());
+    const double change =
+        mode_ == ContactMode::coulomb
+            ? update_friction(solution, effort.rounds > friction_patience ? 0.5 : 1.0,
+                              solver.noise())
+            : 0.0;
+    if (wrong.empty() && change <= std::max(friction_converged, solver.noise())) {
+      trial_.displacement = in_plane_axes(solution.displacement);
+      trial_.reaction = solution.reaction;
+      return effort;
+    }
+    stalled = wrong.size() < fewest ? 0 : stalled + 1;
+    fewest = std::min(fewest, wrong.size());
+    if (stalled > patience && wrong.size() > 1) wrong.erase(wrong.begin() + 1, wrong.end());
+    for (const std::size_t node : wrong) this->change(node, solution);
+  }
+  throw meshes::NotConverged("the contact state did not converge within " +
+                             std::to_string(max_rounds) + " rounds");
+}
+
+}  // namespace fingertip::fem_reference::inline contact

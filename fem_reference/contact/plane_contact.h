@@ -1,0 +1,182 @@
+/// Contact of the tip with the rigid plane or other obstacle, node by node, by a primal-dual active
+/// set. Free of deal.II.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "fem_reference/contact/contact_solver.h"
+#include "fem_reference/contact/contact_surface.h"
+#include "meshes/press/press_protocol.h"
+
+namespace fingertip::fem_reference::inline contact {
+
+/// Where the plane is: z >= height is behind it; it has moved along x by `shift`. The obstacle's
+/// top lies in it. Plane axes [m].
+struct PlanePose {
+  double height = 0.0;
+  double shift = 0.0;
+};
+
+enum class NodeStatus : char {
+  open,   ///< away from the plane
+  stick,  ///< on the plane, moves with it
+  slide,  ///< on the plane, under the friction that its push allows (none when frictionless)
+};
+
+struct ContactEffort {
+  int rounds = 0;
+  int cg_iterations = 0;
+};
+
+/// Finds which nodes touch. The gap of a node is height - (reference z + u_z): small and large
+/// strain differ in the solver behind, not here, because the plane is flat and the gap is linear
+/// in u. Another obstacle at small strain lowers the gap by its height at the reference place. At
+/// large strain the gap is the distance of the deformed place from the obstacle, linearised where
+/// `linearise` says: unknowns then count along axes of the node's own, the third into the obstacle,
+/// and what is said of z holds for that one. A push, never a pull.
+///
+/// In a round every node is on the plane (its z held) or open. An open node that penetrates is put
+/// on the plane and one that is pulled comes off, all at once, until nothing changes (Hintermüller,
+/// Ito & Kunisch 2002). This can cycle when the condensed stiffness is no M-matrix. When the number
+/// of offenders has not fallen for some rounds, they are therefore changed one at a time, smallest
+/// index first, which for frictionless contact ends after finitely many rounds (Júdice & Pires
+/// 1994, following Murty 1974).
+///
+/// Stick: a node put on the plane is anchored at its lateral position at first touch, interpolated
+/// linearly between the start of the step and the trial state in which it was found penetrating.
+/// The error of the anchor is of second order in the step. Anchors move with the plane. A plane
+/// that moves laterally may pull a node off that would penetrate as soon as it is let go: neither
+/// held where it was nor open is a solution. It has come off and down again within the step; pulled
+/// off a second time, it is anchored where it comes down, at the end of the step.
+///
+/// A node without area, the pole of a meridian, has no share of the pressure: its reaction says
+/// nothing while its neighbours push. It follows the nearest node with area when that touches, and
+/// decides for itself while that is open; of itself it comes on at most once in a solution. Left
+/// out of contact it would rise through the plane, a pit in the meridian.
+///
+/// Coulomb: a node sticks while |t| <= mu p; beyond, it slides under t = mu p d. In each round the
+/// force of a sliding node is projected anew, t <- mu p (t - rho s)/|t - rho s| with its slip s
+/// since the start of the step and rho = G SurfaceNode::extent, and it sticks again when |t - rho
+/// s| <= mu p (Alart & Curnier 1991): a fixed point satisfies Coulomb's law whatever rho.
+class PlaneContact {
+ public:
+  /// The first step starts from the tip at rest under the plane at `start`. `friction` is mu
+  /// (contact coulomb only), `shear_modulus` [Pa] scales rho. `finite` asks for the distance from
+  /// an obstacle that is no plane.
+  PlaneContact(ContactUnknowns unknowns, meshes::ContactMode mode, const PlanePose& start,
+               double friction, double shear_modulus, const meshes::Obstacle& obstacle = {},
+               bool finite = false);
+
+  /// Whether gaps are linearised, and nodes have axes of their own.
+  bool curved() const { return !frames_.empty(); }
+  /// Of a curved obstacle: gaps are from now on those linearised at the displacement of the contact
+  /// unknowns (plane axes) under `pose`. Returns the largest distance from the obstacle of what
+  /// touches [m].
+  double linearise(const Eigen::VectorXd& displacement, const PlanePose& pose);
+  /// Of the nodes, for the solver; none unless the obstacle is curved.
+  std::vector<NodeAxes> axes() const;
+
+  /// Finds the contact state under the plane at `pose` for the solver's present linear system.
+  /// Newton's method calls it repeatedly, each time starting from the last answer; the state stays
+  /// a trial until `commit`. Throws NotConverged.
+  ContactEffort solve(ContactSolver& solver, const PlanePose& pose);
+  /// The trial becomes the state from which the next step starts.
+  void commit();
+  /// Back to the last committed state.
+  void abandon() { trial_ = committed_; }
+
+  const ContactUnknowns& unknowns() const { return unknowns_; }
+  /// Of the trial, one per candidate node.
+  const std::vector<NodeStatus>& status() const { return trial_.status; }
+  int active_nodes() const;
+  /// Force of the plane on a candidate node, plane axes [N].
+  meshes::Vector3 reaction(std::size_t node) const;
+  /// Its part into the tip, against the third axis of the node [N], and the length of the rest.
+  double push(std::size_t node) const { return -own_reaction(node).z(); }
+  double shear(std::size_t node) const { return own_reaction(node).head<2>().norm(); }
+  /// What of the forces on the contact unknowns (plane axes) [N] neither contact nor what it holds
+  /// balances; along the axes of the nodes.
+  Eigen::VectorXd out_of_balance(const Eigen::VectorXd& force) const;
+  /// The node whose pressure is this one's: itself, or the one that it follows.
+  std::size_t leader(std::size_t node) const { return leaders_[node]; }
+  /// One flag per contact unknown that the trial holds.
+  std::vector<char> held() const;
+  /// Forces of the plane on all contact unknowns, along the axes of the nodes [N].
+  const Eigen::VectorXd& reactions() const { return trial_.reaction; }
+  double gap(std::size_t node) const { return gap(node, trial_.displacement, trial_.pose); }
+  /// Of any place of the tip at a displacement, plane axes [m].
+  double gap(const meshes::Vector3& rest, const meshes::Vector3& displacement,
+             const PlanePose& pose) const {
+    return facing(rest, displacement, pose).gap;
+  }
+
+  /// What a checkpoint needs to restore the committed state.
+  struct State {
+    PlanePose pose;
+    std::vector<NodeStatus> status;
+    std::vector<std::array<double, 3>> anchors;  ///< displacement relative to the plane [m]
+    Eigen::VectorXd displacement;                ///< of the contact unknowns, plane axes [m]
+    Eigen::VectorXd reaction;                    ///< on them, along the axes of the nodes [N]
+  };
+  const State& committed() const { return committed_; }
+  void restore(State state);
+
+ private:
+  /// Gap of a node [m] and its gradient, at a displacement in plane axes.
+  struct Facing {
+    double gap;
+    meshes::Vector3 normal;
+  };
+  Facing facing(const meshes::Vector3& rest, const meshes::Vector3& displacement,
+                const PlanePose& pose) const;
+  Facing facing(std::size_t node, const meshes::Vector3& displacement,
+                const PlanePose& pose) const {
+    return facing(unknowns_.nodes[node].position, displacement, pose);
+  }
+  double gap(std::size_t node, const Eigen::VectorXd& displacement, const PlanePose& pose) const {
+    return facing(node, of_node(node, displacement), pose).gap;
+  }
+  /// The third component along the axes of a node at which it touches [m].
+  double reach(std::size_t node) const;
+  /// The linearised gap at a displacement along the axes of the nodes.
+  double gap_of_solution(std::size_t node, const Eigen::VectorXd& displacement) const {
+    return reach(node) - displacement[unknowns_.of_node[node][2]];
+  }
+  Eigen::Matrix3d axes(std::size_t node) const {
+    return curved() ? frames_[node].axes : Eigen::Matrix3d::Identity();
+  }
+  meshes::Vector3 of_node(std::size_t node, const Eigen::VectorXd& values) const;
+  void set_node(std::size_t node, const meshes::Vector3& value, Eigen::VectorXd& values) const;
+  meshes::Vector3 own_reaction(std::size_t node) const { return of_node(node, trial_.reaction); }
+  /// From the axes of the nodes to those of the plane.
+  Eigen::VectorXd in_plane_axes(const Eigen::VectorXd& values) const;
+  /// Where a node is held that sticks, along its axes [m].
+  meshes::Vector3 held_at(std::size_t node) const;
+  ConstrainedSolution solve(ContactSolver& solver) const;
+  void touch_at_start();
+  bool is_open(std::size_t node) const { return trial_.status[node] == NodeStatus::open; }
+  bool follows(std::size_t node) const { return leader(node) != node; }
+  std::vector<std::size_t> offenders(const ConstrainedSolution& solution, double noise) const;
+  void change(std::size_t node, const ConstrainedSolution& solution);
+  /// Anchors a node where it was at `time`, 0 ... 1, between the start of the step and `trial`.
+  void anchor(std::size_t node, const Eigen::VectorXd& trial, double time);
+  /// One round of Coulomb's law; the largest change of a friction force over the largest push.
+  double update_friction(const ConstrainedSolution& solution, double relaxation, double noise);
+
+  ContactUnknowns unknowns_;
+  std::vector<std::size_t> leaders_;  ///< of each node: itself, or the one that it follows
+  meshes::ContactMode mode_;
+  double friction_, shear_modulus_;
+  meshes::Obstacle obstacle_;
+  struct Frame {
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< as rows
+    double reach = 0.0;                                  ///< [m]
+  };
+  std::vector<Frame> frames_;  ///< of the nodes under a curved obstacle
+  State committed_, trial_;
+  std::vector<int> releases_;  ///< of each node, since `solve` began
+};
+
+}  // namespace fingertip::fem_reference::inline contact

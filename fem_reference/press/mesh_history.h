@@ -1,0 +1,77 @@
+/// What a press yielded on each mesh of a sequence, and how far the finest may be off. Free of
+/// deal.II.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <utility>
+#include <vector>
+
+#include "fem_reference/press/force_error.h"
+#include "fem_reference/press/press_state.h"
+
+namespace fingertip::fem_reference::inline press {
+
+/// A mesh and the samples computed on it so far, in their order.
+struct MeshRecord {
+  MeshSummary mesh;
+  std::vector<PressState> states;
+  double wall_time = 0.0;  ///< of mesh, matrices and samples [s]
+};
+
+/// The sequence of meshes, coarse to fine.
+class MeshHistory {
+ public:
+  /// `safety` multiplies every error of a mesh. Forces below `least_share` of the largest need not
+  /// be known better than one of that size: where a press ends unloaded, or nearly.
+  explicit MeshHistory(double safety = 1.0, double least_share = 0.0)
+      : safety_(safety), least_share_(least_share) {}
+  /// What the steps in time add to the errors, over the forces of the samples; none at first.
+  void set_step_errors(std::vector<double> errors) { step_errors_ = std::move(errors); }
+  const std::vector<double>& step_errors() const { return step_errors_; }
+  void start_mesh(const MeshSummary& mesh) { meshes_.push_back({mesh, {}, 0.0}); }
+  /// Appends the next sample of the finest mesh and estimates its error.
+  void add(PressState state);
+
+  const std::vector<MeshRecord>& meshes() const { return meshes_; }
+  MeshRecord& finest() { return meshes_.back(); }
+  /// Each sample from the finest mesh on which it has been computed, with its `force_error`.
+  std::vector<PressState> best() const;
+  /// Error of sample `index` on the finest mesh that has it: the safety times max(e, m w, b), and
+  /// the steps' share; NaN while e is. Where nothing touches the largest force of a coarser mesh.
+  ///
+  /// e: estimate_force_error with the node spacing h at this sample's contact edge as the measure
+  /// of a mesh: adaptive meshes are refined here for one sample and there for another, and a mesh
+  /// that is no finer at the edge tells nothing about it. NaN while there is one such spacing only.
+  ///
+  /// m w: three forces may agree by chance. F is stationary in the contact radius a, which jumps by
+  /// up to h, so its noise is of the order w = F (h/a)² at every depth; m is the median of e/w over
+  /// the samples.
+  ///
+  /// b: no difference shows what no refinement has touched. F is the derivative of the energy E by
+  /// the indentation, and a mesh stores too much of it everywhere; as both grow with like powers of
+  /// the indentation, F is too large by about the share that E is. So b = 2 F S/E, S the finest
+  /// mesh's indicator (PressState::indicator). Against axisymmetric solutions the mean excess of
+  /// solids is 0.4 ... 1.7 F S/E without friction at small strain, -0.9 ... 0.9 with stick. It is
+  /// no correction: its factor varies with mesh and rubber.
+  ForceError error(std::size_t index) const;
+  /// Which of the `best` are off by more than that share of normal_force.
+  std::vector<char> beyond(double tolerance) const;
+  /// Largest force_error over normal_force; NaN before there is an estimate for every sample.
+  double worst_relative_error() const;
+
+  nlohmann::json to_json() const;
+  /// With the options of `like`.
+  static MeshHistory from_json(const nlohmann::json& json, MeshHistory like = MeshHistory());
+
+ private:
+  std::vector<double> relative_errors() const;
+  const PressState* finest_state(std::size_t index) const;
+  ForceError edge_error(std::size_t index) const;
+  double typical_edge_error() const;
+
+  std::vector<MeshRecord> meshes_;
+  double safety_, least_share_;
+  std::vector<double> step_errors_;
+};
+
+}  // namespace fingertip::fem_reference::inline press

@@ -1,0 +1,325 @@
+/// Files for ParaView, the section, and checkpoints of a press.
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/solution_transfer.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_dgq.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/numerics/data_out.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "fem_reference/job/processes.h"
+#include "fem_reference/output/press_fields.h"
+#include "fem_reference/press/press_model.h"
+#include "meshes/base/errors.h"
+#include "meshes/base/files.h"
+
+namespace fingertip::fem_reference::inline press {
+namespace {
+
+using Json = nlohmann::json;
+using namespace dealii::DataComponentInterpretation;
+
+/// The error indicators as fields with one value per cell, so that they travel with the mesh.
+template <int dim>
+class CellFields {
+ public:
+  explicit CellFields(const Triangulation<dim>& triangulation) : element_(0), dofs_(triangulation) {
+    dofs_.distribute_dofs(element_);
+  }
+  Vector from(const dealii::Vector<float>& values) const {
+    Vector result(dofs_.locally_owned_dofs(), MPI_COMM_WORLD);
+    for_each([&](unsigned cell, auto unknown) { result[unknown] = double(values[cell]); });
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+  void copy(const Vector& field, dealii::Vector<float>& values) const {
+    for_each([&](unsigned cell, auto unknown) { values[cell] = float(double(field[unknown])); });
+  }
+  Vector ghosted(const Vector& owned) const {
+    dealii::IndexSet relevant;
+    dealii::DoFTools::extract_locally_relevant_dofs(dofs_, relevant);
+    Vector result(dofs_.locally_owned_dofs(), relevant, MPI_COMM_WORLD);
+    result = owned;
+    return result;
+  }
+  const dealii::DoFHandler<dim>& dofs() const { return dofs_; }
+
+ private:
+  template <class Action>
+  void for_each(Action action) const {
+    std::vector<dealii::types::global_dof_index> unknown(1);
+    for (const auto& cell : dofs_.active_cell_iterators()) {
+      if (!cell->is_locally_owned()) continue;
+      cell->get_dof_indices(unknown);
+      action(cell->active_cell_index(), unknown[0]);
+    }
+  }
+
+  dealii::FE_DGQ<dim> element_;
+  dealii::DoFHandler<dim> dofs_;
+};
+
+/// Stresses at quadrature points as fields of elements whose nodes are those points, so that they
+/// travel with the mesh.
+template <int dim>
+class PointFields {
+ public:
+  explicit PointFields(const Body<dim>& body)
+      : element_(dealii::FE_DGQArbitraryNodes<dim>(dealii::QGauss<1>(unsigned(body.degree()) + 1)),
+                 6),
+        dofs_(body.triangulation) {
+    dofs_.distribute_dofs(element_);
+  }
+  Vector from(const PointStresses& stresses) const {
+    Vector result(dofs_.locally_owned_dofs(), MPI_COMM_WORLD);
+    for_each(stresses, [&](double value, auto unknown) { result[unknown] = value; });
+    result.compress(dealii::VectorOperation::insert);
+    Vector known(dofs_.locally_owned_dofs(), relevant(), MPI_COMM_WORLD);
+    known = result;
+    return known;
+  }
+  Vector empty() const { return Vector(dofs_.locally_owned_dofs(), MPI_COMM_WORLD); }
+  void copy(const Vector& field, PointStresses& stresses) const {
+    for_each(stresses, [&](double& value, auto unknown) { value = field[unknown]; });
+  }
+  const dealii::DoFHandler<dim>& dofs() const { return dofs_; }
+
+ private:
+  dealii::IndexSet relevant() const {
+    dealii::IndexSet result;
+    dealii::DoFTools::extract_locally_relevant_dofs(dofs_, result);
+    return result;
+  }
+  void for_each(auto& stresses, auto action) const {
+    std::vector<dealii::types::global_dof_index> unknowns(element_.n_dofs_per_cell());
+    for (const auto& cell : dofs_.active_cell_iterators()) {
+      if (!cell->is_locally_owned()) continue;
+      cell->get_dof_indices(unknowns);
+      auto values = stresses.of_cell(cell->active_cell_index());
+      for (unsigned q = 0; q < stresses.points; ++q)
+        for (unsigned c = 0; c < 6; ++c)
+          action(values(c, q), unknowns[element_.component_to_system_index(c, q)]);
+    }
+  }
+
+  dealii::FESystem<dim> element_;
+  dealii::DoFHandler<dim> dofs_;
+};
+
+template <int dim>
+using Transfer = dealii::parallel::distributed::SolutionTransfer<dim, Vector>;
+
+std::vector<const Vector*> pointers_to(const std::vector<Vector>& fields) {
+  std::vector<const Vector*> list;
+  for (const Vector& field : fields) list.push_back(&field);
+  return list;
+}
+
+Json to_json(const Eigen::VectorXd& v) {
+  return std::vector<double>(v.data(), v.data() + v.size());
+}
+
+Eigen::VectorXd vector_from(const Json& json) {
+  const auto values = json.get<std::vector<double>>();
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(values.size()));
+}
+
+}  // namespace
+
+template <int dim>
+std::shared_ptr<const PressSnapshot> TipPress<dim>::snapshot() const {
+  return std::make_shared<PressSnapshot>(PressSnapshot{
+      displacement_, contact_->committed(), {linear_memory_.past(), point_memory_.past()}});
+}
+
+template <int dim>
+void TipPress<dim>::write_fields(const PressSnapshot& state,
+                                 const std::filesystem::path& file) const {
+  const Vector u = body_->fine.ghosted(state.displacement);
+  const bool finite = job_.strain == Strain::finite;  // then pressure is per deformed area
+  PlaneContact then = *contact_;
+  then.restore(state.contact);
+  const ContactField<dim> contact(*body_, then,
+                                  outer_area(*body_, finite ? &state.displacement : nullptr));
+  const StressField<dim> stress(*body_, job_, state.displacement, state.remembered);
+  FieldOutput<dim> out;
+  out.add_data_vector(body_->fine.dofs, u, std::vector<std::string>(dim, "displacement"),
+                      std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
+  stress.add_to(out);
+  contact.add_to(out);
+  out.build_patches(body_->mapping, unsigned(job_.degree),
+                    dealii::DataOut<dim>::curved_inner_cells);
+  out.write(file, job_.field_sectors);
+}
+
+template <int dim>
+std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot& state) const {
+  const Vector u = body_->fine.ghosted(state.displacement);
+  std::vector<std::array<double, 8>> own;
+  const auto take = [&](const auto& line) {
+    std::array<double, 8> edge{};
+    for (unsigned end = 0; end < 2; ++end)
+      for (unsigned k = 0; k < 2; ++k) {
+        const unsigned component = k * (dim - 1);  // across and along the axis
+        edge[2 * end + k] = line->vertex(end)[component];
+        edge[4 + 2 * end + k] =
+            line->vertex(end)[component] + u[line->vertex_dof_index(end, component)];
+      }
+    own.push_back(edge);
+  };
+  // Where the sides of a face of the surface cross the plane, by their displacements in between.
+  const auto cross = [&](const auto& face) {
+    std::array<double, 8> edge{};
+    unsigned found = 0;
+    for (unsigned l = 0; l < 4 && found < 2; ++l) {
+      const auto& line = face->line(l);
+      const double from = line->vertex(0)[1], to = line->vertex(1)[1];
+      if ((from < 0.0) == (to < 0.0)) continue;
+      const double share = from / (from - to);
+      for (unsigned k = 0; k < 2; ++k) {
+        const unsigned component = 2 * k;
+        const auto between = [&](double a, double b) { return a + share * (b - a); };
+        edge[2 * found + k] = between(line->vertex(0)[component], line->vertex(1)[component]);
+        edge[4 + 2 * found + k] =
+            edge[2 * found + k] + between(u[line->vertex_dof_index(0, component)],
+                                          u[line->vertex_dof_index(1, component)]);
+      }
+      ++found;
+    }
+    if (found == 2) own.push_back(edge);
+  };
+  const auto in_section = [](const auto& face) {
+    return face->at_boundary() &&
+           face->boundary_id() == dealii::types::boundary_id(meshes::PhysicalTag::symmetry_y);
+  };
+  for (const auto& cell : body_->fine.dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    for (const auto& face : cell->face_iterators()) {
+      if constexpr (dim == 2) {
+        take(face);
+      } else if (in_section(face)) {
+        for (unsigned l = 0; l < 4; ++l) take(face->line(l));
+      } else if (sector_ == meshes::Sector::full && face->at_boundary()) {
+        cross(face);
+      }
+    }
+  }
+  std::vector<SectionEdge> edges;
+  for (const auto& part : dealii::Utilities::MPI::gather(MPI_COMM_WORLD, own))
+    for (const auto& e : part)
+      edges.push_back({{e[0], e[1], e[2], e[3]}, {e[4], e[5], e[6], e[7]}});
+  return edges;
+}
+
+template <int dim>
+void TipPress<dim>::save(const std::filesystem::path& folder) const {
+  const CellFields<dim> cells(body_->triangulation);
+  std::vector<Vector> displacements = {body_->fine.ghosted(displacement_)};
+  for (const Vector& branch : linear_memory_.branches())
+    displacements.push_back(body_->fine.ghosted(branch));
+  std::vector<Vector> marks;
+  for (const Marks& sample : marks_) {
+    marks.push_back(cells.ghosted(cells.from(sample.indicators)));
+    marks.push_back(cells.ghosted(cells.from(sample.edge)));
+  }
+  Transfer<dim> displacement_transfer(body_->fine.dofs), cell_transfer(cells.dofs());
+  displacement_transfer.prepare_for_serialization(pointers_to(displacements));
+  if (!marks.empty()) cell_transfer.prepare_for_serialization(pointers_to(marks));
+  const PointFields<dim> points(*body_);
+  Transfer<dim> point_transfer(points.dofs());
+  std::vector<Vector> stresses;
+  for (const PointStresses* field : point_memory_.stresses())
+    stresses.push_back(points.from(*field));
+  if (!stresses.empty()) point_transfer.prepare_for_serialization(pointers_to(stresses));
+  body_->triangulation.save((folder / "mesh").string());
+  if (!first_process()) return;
+  const PlaneContact::State& state = contact_->committed();
+  std::vector<int> status;
+  for (const NodeStatus node : state.status) status.push_back(int(node));
+  const Json json{{"place", place_},
+                  {"samples", marks_.size()},
+                  {"status", status},
+                  {"anchors", state.anchors},
+                  {"displacement", to_json(state.displacement)},
+                  {"reaction", to_json(state.reaction)}};
+  meshes::write_atomically(folder / "contact.json", [&](std::ostream& out) { out << json; });
+}
+
+template <int dim>
+void TipPress<dim>::load_marks(std::size_t samples) {
+  marks_.assign(samples, {});
+  if (samples == 0) return;
+  const CellFields<dim> cells(body_->triangulation);
+  dealii::Vector<float> empty(body_->triangulation.n_active_cells());
+  std::vector<Vector> fields(2 * samples, cells.from(empty));
+  std::vector<Vector*> list;
+  for (Vector& field : fields) list.push_back(&field);
+  Transfer<dim> transfer(cells.dofs());
+  transfer.deserialize(list);
+  for (std::size_t i = 0; i < samples; ++i) {
+    marks_[i] = {empty, empty};
+    cells.copy(fields[2 * i], marks_[i].indicators);
+    cells.copy(fields[2 * i + 1], marks_[i].edge);
+  }
+}
+
+template <int dim>
+void TipPress<dim>::load_stresses() {
+  if (point_memory_.empty()) return;
+  const PointFields<dim> points(*body_);
+  const std::vector<PointStresses*> stresses = point_memory_.stresses();
+  std::vector<Vector> fields(stresses.size(), points.empty());
+  std::vector<Vector*> list;
+  for (Vector& field : fields) list.push_back(&field);
+  Transfer<dim>(points.dofs()).deserialize(list);
+  for (std::size_t i = 0; i < fields.size(); ++i) points.copy(fields[i], *stresses[i]);
+}
+
+template <int dim>
+void TipPress<dim>::load(const std::filesystem::path& folder) {
+  body_->triangulation.load((folder / "mesh").string());
+  body_->number(tip_supports<dim>());
+  prepare();
+  std::ostringstream text;
+  if (first_process()) text << std::ifstream(folder / "contact.json").rdbuf();
+  const Json json = Json::parse(dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, text.str()));
+  std::vector<Vector*> displacements = {&displacement_};
+  for (Vector& branch : linear_memory_.branches()) displacements.push_back(&branch);
+  Transfer<dim>(body_->fine.dofs).deserialize(displacements);
+  load_marks(json.at("samples").get<std::size_t>());
+  load_stresses();
+
+  place_ = json.at("place").get<double>();
+  PlaneContact::State state;
+  state.pose = pose(place_);
+  for (const int node : json.at("status").get<std::vector<int>>())
+    state.status.push_back(NodeStatus(node));
+  state.anchors = json.at("anchors").get<std::vector<std::array<double, 3>>>();
+  state.displacement = vector_from(json.at("displacement"));
+  state.reaction = vector_from(json.at("reaction"));
+  if (state.status.size() != contact_->unknowns().nodes.size() ||
+      state.displacement.size() != Eigen::Index(contact_->unknowns().unknowns.size()))
+    throw meshes::InvalidInput({"checkpoint", folder.string(), "must belong to the same job",
+                                "delete it and start the run anew"});
+  contact_->restore(std::move(state));
+}
+
+#define FINGERTIP_INSTANTIATE(dim)                                                              \
+  template std::shared_ptr<const PressSnapshot> TipPress<dim>::snapshot() const;                \
+  template void TipPress<dim>::write_fields(const PressSnapshot&, const std::filesystem::path&) \
+      const;                                                                                    \
+  template std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot&) const;         \
+  template void TipPress<dim>::save(const std::filesystem::path&) const;                        \
+  template void TipPress<dim>::load(const std::filesystem::path&);
+FINGERTIP_INSTANTIATE(2)
+FINGERTIP_INSTANTIATE(3)
+#undef FINGERTIP_INSTANTIATE
+
+}  // namespace fingertip::fem_reference::inline press

@@ -1,0 +1,71 @@
+#include "fem_reference/runs/run_files.h"
+
+#include <cstdio>
+#include <ostream>
+
+#include "fem_reference/job/run_tables.h"
+#include "meshes/base/files.h"
+#include "meshes/tables/table_rows.h"
+
+namespace fingertip::fem_reference::inline runs {
+
+using meshes::to_text;
+
+void write_samples(const std::vector<PressState>& states, const std::filesystem::path& folder) {
+  meshes::PressResponse response;
+  for (const PressState& state : states) response.append(state.sample);
+  response.write_csv(folder / "response.csv");
+  std::vector<PressureRow> rows;
+  for (const PressState& state : states)
+    for (const ContactPoint& point : state.contact)
+      rows.push_back({state.sample.indentation, point.radius, point.pressure,
+                      state.sample.lateral_displacement});
+  meshes::write_rows(rows, folder / "pressure.csv");
+}
+
+void write_convergence(const MeshHistory& history, const std::filesystem::path& folder) {
+  std::vector<ConvergenceRow> rows;
+  int number = 0;
+  for (const MeshRecord& record : history.meshes()) {
+    ++number;
+    for (const PressState& state : record.states)
+      rows.push_back({number, record.mesh.cells, record.mesh.unknowns, state.sample.indentation,
+                      state.sample.normal_force, state.sample.contact_radius,
+                      state.sample.max_pressure, state.node_spacing, state.energy, state.indicator,
+                      state.sample.lateral_displacement});
+  }
+  meshes::write_rows(rows, folder / "convergence.csv");
+}
+
+void write_section(const std::vector<SectionEdge>& edges, const std::filesystem::path& folder) {
+  std::vector<SectionRow> rows;
+  for (const SectionEdge& edge : edges) rows.push_back({edge.undeformed, edge.deformed});
+  meshes::write_rows(rows, folder / "section.csv");
+}
+
+std::string field_name(std::size_t index) {
+  char name[32];
+  std::snprintf(name, sizeof name, "press_%04zu.vtu", index + 1);
+  return name;
+}
+
+void write_series(const std::filesystem::path& file,
+                  const std::vector<std::pair<std::string, std::string>>& entries) {
+  meshes::write_atomically(file, [&](std::ostream& out) {
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
+           "  <Collection>\n";
+    for (const auto& [time, name] : entries)
+      out << "    <DataSet timestep=\"" << time << "\" part=\"0\" file=\"" << name << "\"/>\n";
+    out << "  </Collection>\n</VTKFile>\n";
+  });
+}
+
+void write_field_series(const std::vector<double>& steps, const std::filesystem::path& folder) {
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (std::filesystem::exists(folder / "fields" / field_name(i)))
+      entries.emplace_back(to_text(steps[i]), field_name(i));
+  write_series(folder / "fields" / "press.pvd", entries);
+}
+
+}  // namespace fingertip::fem_reference::inline runs

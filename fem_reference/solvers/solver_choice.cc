@@ -1,0 +1,120 @@
+#include "fem_reference/solvers/solver_choice.h"
+
+#include <mpi.h>
+
+#include <cmath>
+#include <string>
+
+#include "meshes/base/errors.h"
+
+namespace fingertip::fem_reference::inline solvers {
+namespace {
+
+/// Above this many unknowns the factor outgrows a desktop's memory (4.4 GB peak at 240 000), and
+/// multigrid takes over.
+constexpr double largest_condensed = 300000;
+
+/// Of 1000 unknowns [s]: assembled and factored by sparse Cholesky, which grows with the power
+/// below; by the iterations of the contact on a matrix that is factored; by multigrid.
+constexpr double factor_time = 0.0072, factor_power = 1.33, contact_time = 0.001,
+                 multigrid_time = 0.18;
+/// Factorisations, or solutions by multigrid, of one sample at large strain.
+constexpr double newton_steps = 3.0;
+/// Of the unknowns, from one mesh to the next where half of the error is refined: 1.05 to 1.4.
+constexpr double usual_growth = 1.2;
+constexpr double base_memory = 2e8, memory_per_unknown = 1.75e4;  // [byte]
+
+}  // namespace
+
+LinearSolver choose_solver(const ReferenceJob& job, double unknowns) {
+  const LinearSolver wanted = job.solver;
+  int processes = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &processes);
+  if (job.axisymmetric()) {
+    if (processes > 1)
+      throw meshes::InvalidInput({"reference.symmetry", std::string(name(job.symmetry)),
+                                  "a meridian is solved on one process",
+                                  "start one process, or choose reference.symmetry = \"none\""});
+    return LinearSolver::condensed;
+  }
+  const bool curved = job.strain == Strain::finite && !job.protocol.obstacle.is_plane();
+  if (curved && (processes > 1 || wanted == LinearSolver::multigrid))
+    throw meshes::InvalidInput({"obstacle.shape", std::string(name(job.protocol.obstacle.shape)),
+                                "at large strain the contact with what is curved needs the direct "
+                                "solver, on one process",
+                                "choose reference.solver = \"condensed\" and --ranks 1"});
+  if (curved) return LinearSolver::condensed;
+  if (wanted == LinearSolver::condensed && processes > 1)
+    throw meshes::InvalidInput({"reference.solver", "condensed",
+                                "the condensed solver runs on one process",
+                                "choose multigrid or automatic, or --ranks 1"});
+  if (wanted != LinearSolver::automatic) return wanted;
+  return processes == 1 && unknowns <= largest_condensed ? LinearSolver::condensed
+                                                         : LinearSolver::multigrid;
+}
+
+SolutionCost solution_cost(const ReferenceJob& job, double unknowns) {
+  const double thousands = 1e-3 * unknowns;
+  const double factor = factor_time * std::pow(thousands, factor_power);
+  const double memory = base_memory + memory_per_unknown * unknowns;
+  const bool finite = job.strain == Strain::finite;
+  if (choose_solver(job, unknowns) == LinearSolver::multigrid)
+    return {contact_time * thousands, (finite ? newton_steps : 1.0) * multigrid_time * thousands,
+            memory};
+  if (finite) return {contact_time * thousands, newton_steps * factor, memory};
+  return {factor, contact_time * thousands, memory};
+}
+
+double expected_unknowns(const ReferenceJob& job, double cells, double corners) {
+  const double inner = job.degree - 1;  // nodes within an edge
+  if (job.axisymmetric())
+    return 2.0 * (corners + inner * (corners + cells - 1.0) + inner * inner * cells);
+  return 3.0 * (corners + inner * (2.0 * corners + cells - 1.0) +
+                inner * inner * (corners + 2.0 * cells) + inner * inner * inner * cells);
+}
+
+PressWork::PressWork(const ReferenceJob& job, std::size_t samples, std::size_t fewest_meshes)
+    : job_(job), samples_(samples), fewest_meshes_(job.estimate_error ? fewest_meshes : 1) {}
+
+void PressWork::begin(double unknowns) {
+  unknowns_ = unknowns;
+}
+
+void PressWork::resume(double unknowns, std::size_t meshes, std::size_t samples_done) {
+  unknowns_ = unknowns;
+  assembled_ = true;
+  number_ = meshes;
+  pressed_ = samples_done;
+}
+
+void PressWork::assembled(double unknowns) {
+  unknowns_ = unknowns;
+  assembled_ = true;
+  work_done_ += solution_cost(job_, unknowns).mesh;
+}
+
+void PressWork::pressed() {
+  ++pressed_;
+  work_done_ += solution_cost(job_, unknowns_).sample;
+}
+
+void PressWork::refine() {
+  unknowns_ *= usual_growth;
+  assembled_ = false;
+  ++number_;
+  pressed_ = 0;
+}
+
+Expected PressWork::expected(double wall_time) const {
+  SolutionCost cost = solution_cost(job_, unknowns_);
+  double work = double(samples_ - pressed_) * cost.sample;
+  if (!assembled_) work += cost.mesh;
+  double unknowns = unknowns_;
+  for (std::size_t number = number_; number < fewest_meshes_; ++number) {
+    cost = solution_cost(job_, unknowns *= usual_growth);
+    work += cost.mesh + double(samples_) * cost.sample;
+  }
+  return {(work_done_ > 0.0 ? wall_time / work_done_ : 1.0) * work, cost.memory};
+}
+
+}  // namespace fingertip::fem_reference::inline solvers

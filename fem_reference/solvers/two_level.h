@@ -1,0 +1,62 @@
+/// Two-level preconditioner for higher-order elements: Chebyshev smoothing of the unknowns
+/// themselves and one V-cycle of algebraic multigrid for linear elements on the same mesh.
+#pragma once
+
+#include <deal.II/base/subscriptor.h>
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <memory>
+#include <vector>
+
+#include "fem_reference/elements/assembly.h"
+
+namespace fingertip::fem_reference::inline solvers {
+
+/// P A P for an operator A that leaves its argument alone; P zeroes the held unknowns.
+class ProjectedMatrix : public dealii::Subscriptor {
+ public:
+  /// `held` has one flag per owned unknown; both must outlive this object.
+  ProjectedMatrix(const SparseMatrix& matrix, const std::vector<char>& held)
+      : matrix_(matrix), held_(held) {}
+
+  void project(Vector& v) const;
+  void vmult(Vector& result, const Vector& v) const;
+
+ private:
+  const SparseMatrix& matrix_;
+  const std::vector<char>& held_;
+};
+
+/// Symmetric positive definite approximation of (P A P)^-1.
+class TwoLevelPreconditioner {
+ public:
+  /// The system must outlive the preconditioner.
+  TwoLevelPreconditioner(const Body<3>& body, const LinearSystem& system);
+
+  /// Chooses the held unknowns, one flag per owned unknown of the fine space, and builds the
+  /// coarse hierarchy for them. They are kept by
+  /// reference and may change a little afterwards: the coarse level then lags behind.
+  void solve_constrained(const std::vector<char>& held);
+  void vmult(Vector& result, const Vector& residual) const;
+
+ private:
+  void build_prolongation();
+  void measure_spectrum();
+  void collect_rigid_modes();
+  /// Chebyshev iteration for A x = b from x = 0 (Saad, Iterative Methods, algorithm 12.1).
+  void smooth(Vector& x, const Vector& b) const;
+  void build_hierarchy(const std::vector<char>& coarse_held);
+
+  const Body<3>& body_;
+  const LinearSystem& system_;
+  SparseMatrix prolongation_;  ///< (fine unknowns, coarse unknowns)
+  Vector inverse_diagonal_;
+  double largest_eigenvalue_ = 0.0;  ///< of D^-1 A
+  std::unique_ptr<ProjectedMatrix> projected_;
+  SparseMatrix coarse_matrix_;  ///< with held unknowns eliminated
+  std::vector<double> rigid_modes_;
+  std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg_;
+  std::vector<std::pair<int, int>> shared_vertices_;  ///< (local fine, local coarse) unknowns
+};
+
+}  // namespace fingertip::fem_reference::inline solvers

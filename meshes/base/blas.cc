@@ -1,0 +1,69 @@
+#include "meshes/base/blas.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+
+namespace fingertip::meshes::inline base {
+namespace {
+
+template <class Function>
+Function* symbol(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+/// Looked up by name, since which BLAS serves a program is the system's choice. Empty: another one,
+/// or one built for a single processor.
+struct OpenBlas {
+  void (*set_threads)(int) = symbol<void(int)>("openblas_set_num_threads");
+  int (*get_threads)() = symbol<int()>("openblas_get_num_threads");
+  char* (*core_name)() = symbol<char*()>("openblas_get_corename");
+  /// Forget the kernels, choose them anew: what OpenBLAS does when it is loaded.
+  void (*forget_kernels)() = symbol<void()>("gotoblas_dynamic_quit");
+  void (*choose_kernels)() = symbol<void()>("gotoblas_dynamic_init");
+};
+
+const OpenBlas& open_blas() {
+  static const OpenBlas found;
+  return found;
+}
+
+bool chosen_by_features = false;
+
+}  // namespace
+
+void keep_blas_to_one_thread() {
+  if (std::getenv("OPENBLAS_NUM_THREADS") == nullptr && open_blas().set_threads != nullptr)
+    open_blas().set_threads(1);
+}
+
+void leave_oldest_blas_kernels() {
+  constexpr const char* choice = "OPENBLAS_CORETYPE";
+  const OpenBlas& blas = open_blas();
+  if (blas.forget_kernels == nullptr || blas.choose_kernels == nullptr ||
+      std::getenv(choice) != nullptr || blas_kernels().name != "Prescott" ||
+      !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+    return;
+  ::setenv(choice, "Haswell", 1);
+  blas.forget_kernels();
+  blas.choose_kernels();
+  ::unsetenv(choice);
+  chosen_by_features = true;
+}
+
+BlasKernels blas_kernels() {
+  if (open_blas().core_name == nullptr) return {};
+  return {open_blas().core_name(), chosen_by_features};
+}
+
+OneBlasThread::OneBlasThread() {
+  if (open_blas().set_threads == nullptr || open_blas().get_threads == nullptr) return;
+  before_ = open_blas().get_threads();
+  open_blas().set_threads(1);
+}
+
+OneBlasThread::~OneBlasThread() {
+  if (before_ > 0) open_blas().set_threads(before_);
+}
+
+}  // namespace fingertip::meshes::inline base

@@ -1,0 +1,42 @@
+#include "meshes/press/no_equilibrium.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace fingertip::meshes::inline press {
+
+namespace {
+
+std::string text_of(double number, const char* format) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, number);
+  return text;
+}
+
+/// press.depth = "6.2 mm", to three digits, no deeper than that.
+std::string depth_setting(double indentation) {
+  const double depth = 1e3 * indentation,
+               unit = std::pow(10.0, std::floor(std::log10(depth)) - 2.0);
+  return "press.depth = \"" + text_of(std::floor(depth / unit * (1.0 + 1e-12)) * unit, "%.4g") +
+         " mm\"";
+}
+
+std::string last_words(const std::string& who, double indentation, double lateral,
+                       const std::string& why, const std::string& remedy) {
+  std::string text =
+      who + " found no equilibrium beyond an indentation of " + text_of(indentation, "%.5g") + " m";
+  if (lateral != 0.0) text += " and a lateral displacement of " + text_of(lateral, "%.5g") + " m";
+  if (!why.empty()) text += " (" + why + ")";
+  text += "; press less deep";
+  if (indentation > 0.0) text += ", " + depth_setting(indentation);
+  if (lateral != 0.0) text += ", move less far";
+  return text + ", or " + remedy;
+}
+
+}  // namespace
+
+NoEquilibrium::NoEquilibrium(const std::string& who, double indentation, double lateral,
+                             const std::string& why, const std::string& remedy)
+    : NoEquilibrium(last_words(who, indentation, lateral, why, remedy), indentation) {}
+
+}  // namespace fingertip::meshes::inline press

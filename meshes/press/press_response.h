@@ -1,0 +1,106 @@
+/// What a press yields, from whichever model: force, torque and contact against indentation.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "meshes/tables/file_fields.h"
+
+namespace fingertip::meshes::inline press {
+
+/// One row of response.csv, SI. Signs: n points from the plane toward the rod; normal_force = F·n
+/// >= 0 in compression with F the sum of bond forces on the rod; torque about the rod's endpoint
+/// in the rod's starting axes, right-handed; indentation > 0 when pressed.
+struct PressSample {
+  double indentation = 0.0;          ///< [m]
+  double normal_force = 0.0;         ///< [N]
+  double lateral_force_x = unknown;  ///< along t1 [N]
+  double lateral_force_y = unknown;  ///< along t2 [N]
+  double torque_x = unknown;         ///< [N m]
+  double torque_y = unknown;         ///< [N m]
+  double torque_z = unknown;         ///< [N m]
+  double contact_radius = unknown;   ///< [m]
+  double max_pressure = unknown;     ///< [Pa]
+  double force_error = unknown;      ///< estimated error of normal_force [N]
+  double time = unknown;             ///< since the start of the press [s]; empty for static runs
+  double lateral_displacement = unknown;  ///< of the plane along t1, seen from the rod [m]
+  double stage = unknown;                 ///< of the press's program, from 1; unknown without one
+};
+
+/// The columns of response.csv.
+constexpr auto fields_of(const PressSample*) {
+  using Row = PressSample;
+  return std::tuple{
+      field("indentation [m]", &Row::indentation),
+      field("normal_force [N]", &Row::normal_force),
+      field("lateral_force_x [N]", &Row::lateral_force_x),
+      field("lateral_force_y [N]", &Row::lateral_force_y),
+      field("torque_x [N m]", &Row::torque_x),
+      field("torque_y [N m]", &Row::torque_y),
+      field("torque_z [N m]", &Row::torque_z),
+      field("contact_radius [m]", &Row::contact_radius),
+      field("max_pressure [Pa]", &Row::max_pressure),
+      field("force_error [N]", &Row::force_error),
+      field("time [s]", &Row::time),
+      field("lateral_displacement [m]", &Row::lateral_displacement, Presence::if_known),
+      field("stage", &Row::stage, Presence::if_known)};
+}
+
+/// A curve of samples by increasing indentation, and then, where a lateral motion follows the
+/// press, at full depth by increasing distance moved laterally; of a program its first stage by
+/// increasing indentation, and then the others in the order of time.
+class PressResponse {
+ public:
+  PressResponse() = default;
+  explicit PressResponse(std::vector<PressSample> samples) : samples_(std::move(samples)) {}
+
+  const std::vector<PressSample>& samples() const { return samples_; }
+  /// The last one, to be completed. Not of an empty response.
+  PressSample& back() { return samples_.back(); }
+  bool empty() const { return samples_.empty(); }
+  void append(const PressSample& sample) { samples_.push_back(sample); }
+
+  /// The samples of the first loading: by increasing indentation.
+  std::span<const PressSample> pressing() const;
+  /// Those of the lateral motion that follows, all at full depth; mostly none.
+  std::span<const PressSample> sliding() const;
+
+  /// Those of the further stages of a program; mostly none.
+  std::span<const PressSample> following() const;
+
+  /// Largest indentation of the first loading, up to which forces are known [m]; 0 when empty.
+  double depth() const { return samples_.empty() ? 0.0 : pressing().back().indentation; }
+  /// Largest indentation reached, in a later stage of a program perhaps [m]; 0 when empty.
+  double deepest() const;
+
+  /// Normal force [N] at `indentation` [m] by monotone piecewise-cubic interpolation
+  /// (Fritsch & Carlson 1980) through pressing() and the origin, so that it never overshoots.
+  /// Throws std::out_of_range beyond the largest sample or below zero.
+  double normal_force_at(double indentation) const;
+
+  /// Writes the CSV whose first line holds names with units (see README), atomically.
+  void write_csv(const std::filesystem::path& file) const;
+
+  /// Reads a CSV with at least the columns `indentation [m]` and `normal_force [N]`; others may
+  /// be missing or empty. Throws InvalidInput naming file and line for a missing column, a cell
+  /// that is no number, a truncated row, or indentations that do not increase, unless it is the
+  /// lateral displacement that does, or the stage of a program and with it the time.
+  static PressResponse read_csv(const std::filesystem::path& file);
+
+ private:
+  std::vector<PressSample> samples_;
+};
+
+/// (F(indentation) - F_ref(indentation)) / F_ref(indentation), dimensionless, for
+/// 0 < indentation <= both depths [m]. Throws std::out_of_range beyond; NaN where F_ref vanishes.
+double relative_force_error(const PressResponse& response, const PressResponse& reference,
+                            double indentation);
+
+/// sqrt(∫(F - F_ref)² / ∫F_ref²), dimensionless, over 0 <= from < to <= both depths [m], by the
+/// trapezoidal rule on 200 intervals. Throws std::out_of_range beyond the depths.
+double relative_l2_force_error(const PressResponse& response, const PressResponse& reference,
+                               double from, double to);
+
+}  // namespace fingertip::meshes::inline press

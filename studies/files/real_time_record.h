@@ -1,0 +1,57 @@
+/// real_time.json: what --real-time of press and live chose, and what it costs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshes/tables/file_fields.h"
+#include "studies/files/transfer_file.h"
+
+namespace fingertip::studies {
+
+/// A short press on this machine.
+struct PaceTrialEntry {
+  double spacing = meshes::unknown, step = meshes::unknown;  ///< [m], [s]
+  long threads = 1;
+  double real_time_factor = meshes::unknown;  ///< in its slowest 10 ms
+};
+constexpr auto fields_of(const PaceTrialEntry*) {
+  using Whole = PaceTrialEntry;
+  return meshes::named("spacing step threads real_time_factor", &Whole::spacing, &Whole::step,
+                       &Whole::threads, &Whole::real_time_factor);
+}
+
+/// real_time.json in a run folder, and `real_time` in summary.json; SI.
+struct RealTimeRecord {
+  std::string asked;  ///< press and threads that were asked for, as a key
+  double spacing_asked = meshes::unknown, spacing = meshes::unknown;
+  std::string integrator;
+  double step = meshes::unknown;
+  long threads = 1;
+  double expected_factor = meshes::unknown;
+  bool tried = false;  ///< expected from a trial at this spacing, else from coarser ones
+  std::vector<PaceTrialEntry> trials;
+  /// Of the run, in the slowest 10 ms (live: half second) and as a whole; 1 is the most of a live
+  /// view.
+  double slowest_factor = meshes::unknown, whole_factor = meshes::unknown;
+  std::string force_error_of;  ///< what the errors are of, or why there are none
+  std::optional<TransferObstacleEntry> force_error;
+};
+constexpr auto fields_of(const RealTimeRecord*) {
+  using Whole = RealTimeRecord;
+  return std::tuple_cat(
+      meshes::named("asked spacing_asked spacing integrator step threads expected_factor tried "
+                    "trials",
+                    &Whole::asked, &Whole::spacing_asked, &Whole::spacing, &Whole::integrator,
+                    &Whole::step, &Whole::threads, &Whole::expected_factor, &Whole::tried,
+                    &Whole::trials),
+      meshes::if_known(meshes::named("slowest_factor whole_factor", &Whole::slowest_factor,
+                                     &Whole::whole_factor)),
+      meshes::named("force_error_of", &Whole::force_error_of),
+      meshes::if_known(meshes::named("force_error", &Whole::force_error)));
+}
+
+inline constexpr const char* real_time_name = "real_time.json";
+
+}  // namespace fingertip::studies

@@ -1,0 +1,102 @@
+/// Everything that a fit to curves depends on.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/press_fit/fit_record.h"
+#include "calibration/statistics/curve.h"
+#include "calibration/statistics/fit_options.h"
+#include "fem_reference/job/job.h"
+#include "lattice/press/press_setup.h"
+#include "studies/config/config.h"
+#include "studies/fits/models/travel.h"
+
+namespace fingertip::studies {
+
+/// What answers for one curve.
+enum class CurveKind {
+  press,         ///< the static lattice
+  continuum,     ///< run at the Poisson's ratios that the search comes near
+  uniaxial,      ///< law A
+  simple_shear,  ///< law A
+  loss_factor,
+  creep,
+  ramp,          ///< a press to a depth, held: FitInput::presses' static lattice, damped
+  moving_press,  ///< the moving lattice
+};
+
+/// The rows of a file that a curve's values begin with, as its `rows` counts them; from `first` on.
+struct RowsOfValues {
+  std::string file;
+  std::size_t first = 1;
+  std::vector<std::size_t> rows;
+};
+
+struct FitInput;
+
+/// A measurement that might follow, of which the fit tells what it would tell.
+struct Candidate {
+  std::string name;    ///< "ball"
+  std::string press;   ///< for people: contact, obstacle, depth
+  double depth = 0.0;  ///< its largest indentation [m]
+  bool blank = false;  ///< a rigid blank in place of the finger, pressed to the forces of the fit
+  /// The press behind its rig, as the one curve of a fit of the same rubber; none: the first press
+  /// of the fit itself, so that nothing is computed for it.
+  std::shared_ptr<const FitInput> input;
+  std::string refused;  ///< why it cannot be; empty: it can
+};
+
+/// SI. `curves`, `conditions` and `kinds` have an entry per curve; `presses` and `continua` too
+/// where these are presses.
+struct FitInput {
+  CalibrationProblem problem = CalibrationProblem::curve;
+  std::vector<calibration::Curve> curves;
+  std::vector<std::string> conditions;
+  std::vector<CurveKind> kinds;
+  std::vector<lattice::PressSetup> presses;
+  std::vector<fem_reference::ReferenceJob> continua;  ///< the presses of a continuum
+  /// Per curve; empty where no curve is one over the travel of a machine. The samples of `presses`
+  /// and `continua` then are Travel::depths.
+  std::vector<std::optional<Travel>> travels;
+  std::vector<RowsOfValues> rows;  ///< per curve; none where these are not measured
+  /// Of a rubber that relaxes, with places among all free parameters; curves then have times, and
+  /// an entry in `travels` each. The moduli, as of all presses here, are those after long times.
+  std::vector<calibration::FitBranch> branches;
+  lattice::PressSetup base;   ///< of the configuration: rubber and lattice that are not sought
+  bool rubber_known = false;  ///< the data were made of base.rubber
+  calibration::CurveFitOptions options;
+  /// Poisson's ratios that are scanned for starts of E and G; none: options.free starts, its
+  /// stiffness put to the data's scale where `scale_to_data`.
+  std::vector<double> start_ratios;
+  bool scale_to_data = false;
+  /// What the lattices are known to miss goes into the covariance of the forces.
+  bool with_lattice_error = false;
+  /// Per curve, what the model may miss of the force at every sample of its press, relative: the
+  /// same; and what that is, for people. None: nothing.
+  std::vector<std::vector<double>> theory_error;
+  std::string theory_error_of;
+  /// Likewise, by how much a finite law exceeds the small-strain lattices that are fitted; empty
+  /// where they are finite, and where one of the presses finds no equilibrium.
+  std::vector<std::vector<double>> finite_excess;
+  bool density_known = true, retardation_time_known = true;  ///< of base.rubber, for material.toml
+  std::vector<std::string> profile;                          ///< two parameters, or none
+  bool profile_intervals = false;                            ///< else those of the covariance
+  std::string provenance, program;                           ///< for material.toml
+  std::string place = "continuum";    ///< stem of the folders of the continua that answer
+  std::vector<Candidate> candidates;  ///< of presses; in the order of calibration.candidates
+};
+
+/// Whether the continuum answers for the curves.
+bool by_continuum(const FitInput& input);
+
+/// Of `input.options.free`, without those of rigs and relaxation, which stand behind them.
+std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input);
+
+/// Whether forces are proportional to all that is sought of the rubber: a press of every curve then
+/// tells everything, whatever rig and relaxation.
+bool asks_one_press(const FitInput& input);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,351 @@
+#include "studies/fits/models/fit_prospects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "calibration/press_fit/model_error.h"
+#include "meshes/tables/interpolation.h"
+#include "studies/fits/models/fit_rig.h"
+#include "studies/fits/models/travel.h"
+
+namespace fingertip::studies {
+
+using calibration::Curve;
+using calibration::CurveSlopes;
+using calibration::FreeParameter;
+using calibration::MaterialParameter;
+using calibration::Observations;
+using calibration::Prospect;
+using calibration::Rig;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Nothing is known better than this share of the largest force.
+constexpr double least_noise = 1e-6;
+
+/// Whether it moves with a machine, not with one of its presses.
+bool is_of_the_machine(MaterialParameter parameter) {
+  return parameter == MaterialParameter::compliance;
+}
+
+VectorXd vector_of(const std::vector<double>& values) {
+  return VectorXd::Map(values.data(), Index(values.size()));
+}
+
+Curve at_rest(Curve curve, std::vector<double> positions) {
+  curve.x = std::move(positions);
+  curve.is_travel = true;
+  return curve;
+}
+
+}  // namespace
+
+Noise::Noise(double relative, double absolute) : relative_(relative), absolute_(absolute) {}
+
+Noise::Noise(const std::vector<Curve>& curves, double deviation) : absolute_(deviation) {
+  std::vector<std::pair<double, double>> known;
+  for (const Curve& curve : curves)
+    for (std::size_t i = 0; i < curve.sigma.size(); ++i)
+      known.emplace_back(std::abs(curve.y[i]), curve.sigma[i]);
+  std::ranges::sort(known);
+  for (const auto& [force, sigma] : known) {
+    if (!force_.empty() && force <= force_.back()) continue;
+    force_.push_back(force);
+    sigma_.push_back(sigma);
+  }
+}
+
+VectorXd Noise::of(const VectorXd& forces) const {
+  VectorXd sigma(forces.size());
+  for (Index i = 0; i < forces.size(); ++i) {
+    const double force = std::abs(forces(i));
+    if (force_.empty())
+      sigma(i) = std::hypot(relative_ * force, absolute_);
+    else
+      sigma(i) = meshes::interpolated(force_, sigma_, std::min(force, force_.back())) *
+                 std::max(1.0, force / force_.back());
+  }
+  return sigma.cwiseMax(least_noise * forces.cwiseAbs().maxCoeff());
+}
+
+namespace {
+
+/// The press of curve `i` by its rubber alone.
+VectorXd forces_at(const FitInput& input, const FitModels& models, std::size_t i,
+                   const std::vector<double>& indentations, const VectorXd& parameters) {
+  Curve curve = at_rest(input.curves[i], indentations);
+  curve.time.clear();
+  return models.behind_rig(input, i, {}, curve, parameters.size())->evaluate(parameters).value;
+}
+
+}  // namespace
+
+Curve as_if_measured(const FitInput& input, const FitModels& models, std::size_t i,
+                     const VectorXd& parameters, const Noise& noise) {
+  Curve curve = input.curves[i];
+  const VectorXd forces = forces_at(input, models, i, curve.x, parameters);
+  VectorXd told = forces;
+  if (is_travel(input, i)) {
+    const Rig& rig = input.travels[i]->rig;
+    for (std::size_t k = 0; k < curve.x.size(); ++k) {
+      const double force = forces(Index(k));
+      curve.x[k] += rig.touch_offset.in(parameters) + rig.compliance.in(parameters)*force;
+      told(Index(k)) += rig.force_offset.in(parameters) +
+                        (curve.time.empty() ? 0.0 : rig.drift.in(parameters)*curve.time[k]);
+    }
+  }
+  const VectorXd sigma = noise.of(forces);
+  curve.y.assign(told.begin(), told.end());
+  curve.sigma.assign(sigma.begin(), sigma.end());
+  return curve;
+}
+
+MatrixXd relative_model_error(const std::vector<lattice::PressSetup>& presses, bool lattice,
+                              const std::vector<double>& theory) {
+  MatrixXd covariance;
+  if (lattice) covariance = calibration::lattice_covariance(presses);
+  if (theory.empty()) return covariance;
+  const VectorXd excess = vector_of(theory);
+  if (covariance.size() == 0) covariance = MatrixXd::Zero(excess.size(), excess.size());
+  covariance += excess * excess.transpose();
+  return covariance;
+}
+
+std::vector<lattice::PressSetup> presses_of_values(const FitInput& input) {
+  std::vector<lattice::PressSetup> presses = input.presses;
+  for (std::size_t i = 0; i < presses.size(); ++i)
+    if (is_travel(input, i)) presses[i].protocol.samples = depths_of_values(input, i);
+  return presses;
+}
+
+std::vector<double> theory_at_values(const FitInput& input) {
+  std::vector<double> theory;
+  for (std::size_t i = 0; i < input.theory_error.size(); ++i) {
+    const std::vector<double> curve = at_values(input, i, input.theory_error[i]);
+    theory.insert(theory.end(), curve.begin(), curve.end());
+  }
+  return theory;
+}
+
+namespace {
+
+/// A joint linearisation of the fit's values and, perhaps, of a further measurement's.
+struct Joint {
+  std::vector<FreeParameter> free;
+  MatrixXd jacobian;
+  VectorXd deviation;
+  VectorXd forces;
+  std::vector<lattice::PressSetup> presses;
+  std::vector<double> theory;
+  bool lattice_error = false;
+
+  MatrixXd covariance() const {
+    Observations seen{jacobian, deviation, {}};
+    const MatrixXd relative = relative_model_error(presses, lattice_error, theory);
+    // A blank stands behind the presses and has no model.
+    if (relative.size() > 0) {
+      seen.model_covariance = MatrixXd::Zero(forces.size(), forces.size());
+      const VectorXd own = forces.head(relative.rows());
+      seen.model_covariance.topLeftCorner(relative.rows(), relative.cols()) =
+          own.asDiagonal() * relative * own.asDiagonal();
+    }
+    return predicted_covariance(seen, free);
+  }
+  void append(const MatrixXd& rows, const VectorXd& sigma, const VectorXd& values) {
+    const Index before = jacobian.rows(), columns = rows.cols();
+    jacobian.conservativeResize(before + rows.rows(), columns);
+    jacobian.topRightCorner(before, columns - Index(free_before)).setZero();
+    jacobian.bottomRows(rows.rows()) = rows;
+    deviation.conservativeResize(before + rows.rows());
+    deviation.tail(rows.rows()) = sigma;
+    forces.conservativeResize(before + rows.rows());
+    forces.tail(rows.rows()) = values;
+    free_before = std::size_t(columns);
+  }
+  std::size_t free_before = 0;
+};
+
+Joint joint_of(const FitInput& input, const FitModels& models, const VectorXd& parameters,
+               double deviation) {
+  Joint joint;
+  joint.free = input.options.free;
+  joint.free_before = joint.free.size();
+  joint.jacobian.resize(0, Index(joint.free.size()));
+  const auto list = models.addresses();
+  for (std::size_t i = 0; i < input.curves.size(); ++i) {
+    const Curve& curve = input.curves[i];
+    const CurveSlopes slopes = is_travel(input, i)
+                                   ? models
+                                         .behind_rig(input, i, input.travels[i]->rig, curve,
+                                                     parameters.size(), input.branches)
+                                         ->evaluate(parameters)
+                                   : list[i]->evaluate(parameters);
+    joint.append(slopes.jacobian,
+                 curve.sigma.empty() ? VectorXd::Constant(slopes.value.size(), deviation)
+                                     : vector_of(curve.sigma),
+                 slopes.value);
+  }
+  joint.lattice_error = input.with_lattice_error;
+  if (joint.lattice_error) joint.presses = presses_of_values(input);
+  joint.theory = theory_at_values(input);
+  return joint;
+}
+
+/// What is the same of a machine in the fit, if the fit seeks it.
+std::optional<Index> shared_compliance(const FitInput& input, const std::string& machine) {
+  for (std::size_t i = 0; i < input.travels.size(); ++i)
+    if (input.travels[i] && input.travels[i]->machine == machine)
+      return input.travels[i]->rig.compliance.place;
+  return std::nullopt;
+}
+
+/// The first press of the fit, at fewer indentations, as one that is made anew: with a touch and a
+/// zero of its own.
+FitInput made_anew(const FitInput& input, double depth) {
+  FitInput again;
+  again.problem = input.problem;
+  again.base = input.base;
+  again.presses = {input.presses.front()};
+  again.kinds = {input.kinds.front()};
+  Curve curve;
+  const std::size_t count = input.curves.front().x.size();
+  for (std::size_t k = 1; k <= count; ++k) curve.x.push_back(depth * double(k) / double(count));
+  const std::vector<double>& times = input.curves.front().time;
+  if (times.size() == count)
+    for (const double time : times) curve.time.push_back(time - times.front());
+  curve.is_travel = is_travel(input, 0);
+  again.curves = {curve};
+  again.options.free.assign(
+      input.options.free.begin(),
+      input.options.free.begin() + std::ptrdiff_t(material_parameters(input)));
+  if (is_travel(input, 0)) {
+    again.travels = {input.travels.front()};
+    for (const auto member : calibration::rig_members)
+      (again.travels[0]->rig.*member).place.reset();
+    free_rigs(again);
+  }
+  return again;
+}
+
+/// Of a further press: its own parameters, those of its machine being the fit's.
+struct Further {
+  std::vector<Index> place;  ///< of its parameters among all
+  std::vector<FreeParameter> free;
+};
+
+Further further_of(const FitInput& input, const FitInput& own,
+                   const std::vector<FreeParameter>& known) {
+  Further further{{}, known};
+  const std::size_t rubber = material_parameters(own);
+  const std::optional<Index> machine =
+      own.travels.empty() ? std::nullopt : shared_compliance(input, own.travels[0]->machine);
+  for (std::size_t k = 0; k < own.options.free.size(); ++k) {
+    const FreeParameter& free = own.options.free[k];
+    if (k < rubber) {
+      further.place.push_back(Index(k));
+    } else if (is_of_the_machine(free.parameter) && machine) {
+      further.place.push_back(*machine);
+    } else {
+      further.place.push_back(Index(further.free.size()));
+      further.free.push_back(free);
+    }
+  }
+  return further;
+}
+
+/// The press of `own`, whose first curve `models` answers for, added to what is known.
+Joint with_press(Joint joint, const FitInput& input, const FitInput& own, const FitModels& models,
+                 const VectorXd& parameters, const Noise& noise) {
+  const Further further = further_of(input, own, joint.free);
+  VectorXd at(Index(own.options.free.size()));
+  for (Index k = 0; k < at.size(); ++k) {
+    const Index place = further.place[std::size_t(k)];
+    at(k) = place < parameters.size() ? parameters(place) : own.options.free[std::size_t(k)].start;
+  }
+  const Curve curve = as_if_measured(own, models, 0, at, noise);
+  const Rig rig = own.travels.empty() ? Rig{} : own.travels[0]->rig;
+  const CurveSlopes slopes =
+      models.behind_rig(own, 0, rig, at_rest(curve, curve.x), at.size())->evaluate(at);
+  MatrixXd rows = MatrixXd::Zero(slopes.value.size(), Index(further.free.size()));
+  for (Index k = 0; k < at.size(); ++k)
+    rows.col(further.place[std::size_t(k)]) += slopes.jacobian.col(k);
+  joint.free = further.free;
+  joint.append(rows, vector_of(curve.sigma), slopes.value);
+  if (joint.lattice_error) {
+    joint.presses.push_back(own.presses.front());
+    joint.presses.back().protocol.samples = own.curves.front().x;
+  }
+  if (!joint.theory.empty())
+    joint.theory.resize(std::size_t(joint.forces.size()), input.theory_error.front().back());
+  return joint;
+}
+
+/// f = (x - x0)/c of a rigid blank, pressed to the forces of the fit, with a touch of its own.
+Joint with_blank(Joint joint, const VectorXd& parameters, const VectorXd& standard_errors,
+                 const Noise& noise) {
+  const auto compliance =
+      std::ranges::find(joint.free, MaterialParameter::compliance, &FreeParameter::parameter);
+  const Index place = compliance - joint.free.begin();
+  // Of what may be zero as far as the presses tell its error is the size: a blank on a rigid
+  // machine has no travel at all.
+  const double soft = std::max(std::abs(parameters(place)), standard_errors(place));
+  const VectorXd forces = joint.forces;
+  joint.free.push_back({.parameter = MaterialParameter::touch_offset});
+  MatrixXd rows = MatrixXd::Zero(forces.size(), Index(joint.free.size()));
+  rows.col(place) = -forces / soft;
+  rows.rightCols(1).setConstant(-1.0 / soft);
+  joint.append(rows, noise.of(forces), forces);
+  return joint;
+}
+
+}  // namespace
+
+Outlook outlook(const FitInput& input, const FitModels& models, const VectorXd& parameters,
+                double deviation, const fs::path& folder, const JobContext& context,
+                const std::function<bool(double share, const std::string& name)>& go_on) {
+  const Joint known = joint_of(input, models, parameters, deviation);
+  Outlook result{known.covariance(), {}};
+  const VectorXd before = result.covariance.diagonal().cwiseSqrt();
+  const Noise noise(input.curves, deviation);
+  for (const Candidate& candidate : input.candidates) {
+    Prospect& prospect = result.prospects.emplace_back();
+    prospect.name = candidate.name;
+    prospect.press = candidate.press;
+    prospect.failure = candidate.refused;
+    const auto own_go_on = [&] {
+      return go_on(double(&candidate - input.candidates.data()) / double(input.candidates.size()),
+                   candidate.name);
+    };
+    if (!own_go_on()) throw meshes::Interrupted("further measurements not weighed");
+    if (!prospect.failure.empty()) continue;
+    try {
+      Joint joint;
+      if (candidate.blank) {
+        joint = with_blank(known, parameters, before, noise);
+      } else if (candidate.input) {
+        const FitModels own(*candidate.input, folder / "next" / candidate.name, context, own_go_on);
+        joint = with_press(known, input, *candidate.input, own, parameters, noise);
+      } else {
+        joint =
+            with_press(known, input, made_anew(input, candidate.depth), models, parameters, noise);
+      }
+      const VectorXd after = joint.covariance().diagonal().cwiseSqrt().head(before.size());
+      prospect.times = before.cwiseQuotient(after).cwiseMax(1.0);
+    } catch (const meshes::NotConverged& error) {
+      prospect.failure = error.what();
+    } catch (const meshes::InvalidInput& error) {
+      prospect.failure = error.what();
+    }
+  }
+  calibration::sort_prospects(result.prospects, material_parameters(input));
+  return result;
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,180 @@
+#include "studies/fits/models/fit_rig.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "meshes/base/errors.h"
+#include "meshes/tables/interpolation.h"
+
+namespace fingertip::studies {
+
+using calibration::Curve;
+using calibration::FreeParameter;
+using calibration::MaterialParameter;
+using calibration::RigQuantity;
+using meshes::InvalidInput;
+
+namespace {
+
+/// The touch may turn out so much earlier, or later, than it seems; over the reach.
+constexpr double touch_range = 0.3;
+/// Compliances over reach/force: where a search starts, and between which it stays. Noise makes an
+/// estimate negative where there is none.
+constexpr double start_compliance = 0.05, lowest_compliance = -0.1, highest_compliance = 0.9;
+/// Bounds about the mean of a prior, in deviations.
+constexpr double prior_range = 6.0;
+
+/// What is fitted has its start and bounds from `usual`, unless a prior gives them.
+FreeParameter free_of(MaterialParameter parameter, const RigSetting& setting, FreeParameter usual,
+                      const std::string& of) {
+  usual.parameter = parameter;
+  usual.of = of;
+  if (setting.deviation > 0.0) {
+    usual.start = setting.value;
+    usual.lower = setting.value - prior_range * setting.deviation;
+    usual.upper = setting.value + prior_range * setting.deviation;
+    usual.prior = calibration::Prior{setting.value, setting.deviation};
+  }
+  return usual;
+}
+
+bool same(const RigSetting& a, const RigSetting& b) {
+  return a.fitted == b.fitted && a.value == b.value && a.deviation == b.deviation;
+}
+
+/// Appends one and says where.
+RigQuantity append(FitInput& input, FreeParameter free) {
+  input.options.free.push_back(std::move(free));
+  return {0.0, Eigen::Index(input.options.free.size() - 1)};
+}
+
+/// What one file says of the compliance holds for all of its machine.
+void share_compliances(std::vector<std::optional<Travel>>& travels) {
+  std::map<std::string, RigSetting> known;
+  for (const std::optional<Travel>& travel : travels)
+    if (travel && travel->settings.compliance.given)
+      known.emplace(travel->machine, travel->settings.compliance);
+  for (std::optional<Travel>& travel : travels) {
+    if (!travel) continue;
+    RigSetting& own = travel->settings.compliance;
+    const auto other = known.find(travel->machine);
+    if (other == known.end()) continue;
+    if (!own.given) own = other->second, travel->rig.compliance.value = own.value;
+    if (!same(other->second, own))
+      throw InvalidInput({"calibration.rig", "two compliances",
+                          "files of one machine have one compliance",
+                          "name the machines: calibration.machine in calibration.conditions"});
+  }
+}
+
+}  // namespace
+
+void free_rigs(FitInput& input) {
+  share_compliances(input.travels);
+  using enum MaterialParameter;
+  std::size_t count = 0;
+  std::map<std::string, RigQuantity> compliances;
+  for (const auto& travel : input.travels)
+    if (travel) ++count, compliances.emplace(travel->machine, RigQuantity{});
+  const std::size_t machines = compliances.size();
+  compliances.clear();
+  for (std::size_t i = 0; i < input.travels.size(); ++i) {
+    if (!input.travels[i]) continue;
+    Travel& travel = *input.travels[i];
+    const RigSettings& rig = travel.settings;
+    const Curve& curve = input.curves[i];
+    const std::string of = count > 1 ? curve.name : "";
+    if (rig.touch_offset.fitted)
+      travel.rig.touch_offset =
+          append(input, free_of(touch_offset, rig.touch_offset,
+                                {.start = travel.touch,
+                                 .lower = travel.touch - touch_range * travel.reach,
+                                 .upper = travel.touch + touch_range * travel.reach,
+                                 .scale = travel.reach},
+                                of));
+    const double soft = travel.reach / travel.force;
+    if (rig.compliance.fitted) {
+      if (!compliances.contains(travel.machine))
+        compliances[travel.machine] = append(input, free_of(compliance, rig.compliance,
+                                                            {.start = start_compliance * soft,
+                                                             .lower = lowest_compliance * soft,
+                                                             .upper = highest_compliance * soft,
+                                                             .scale = soft},
+                                                            machines > 1 ? travel.machine : ""));
+      travel.rig.compliance = compliances[travel.machine];
+    }
+    if (rig.force_offset.fitted)
+      travel.rig.force_offset = append(
+          input,
+          free_of(force_offset, rig.force_offset,
+                  {.start = curve.y.empty() ? 0.0 : curve.y.front(), .scale = travel.force}, of));
+    if (rig.drift.fitted) {
+      const double span = curve.time.back() - curve.time.front();
+      travel.rig.drift = append(
+          input, free_of(drift, rig.drift, {.start = 0.0, .scale = travel.force / span}, of));
+    }
+  }
+}
+
+std::size_t material_parameters(const FitInput& input) {
+  return std::size_t(std::ranges::count_if(input.options.free, [](const FreeParameter& free) {
+    return !calibration::is_behind_the_press(free.parameter);
+  }));
+}
+
+std::vector<calibration::RigValue> rig_values(const FitInput& input) {
+  std::vector<calibration::RigValue> values;
+  const auto add = [&](MaterialParameter parameter, const std::string& of, const RigQuantity& own,
+                       bool given) {
+    values.push_back({parameter, of, own.value, {}, given});
+    if (own.place) values.back().place = std::size_t(*own.place);
+  };
+  // Files of one machine share what one of them says of it.
+  const auto machine_given = [&](const std::string& machine) {
+    return std::ranges::any_of(input.travels, [&](const std::optional<Travel>& travel) {
+      return travel && travel->machine == machine && travel->settings.compliance.given;
+    });
+  };
+  std::vector<std::string> machines;
+  using enum MaterialParameter;
+  for (std::size_t i = 0; i < input.travels.size(); ++i) {
+    if (!is_travel(input, i)) continue;
+    const Travel& travel = *input.travels[i];
+    const RigSettings& settings = travel.settings;
+    const std::string& name = input.curves[i].name;
+    add(touch_offset, name, travel.rig.touch_offset, settings.touch_offset.given);
+    add(force_offset, name, travel.rig.force_offset, settings.force_offset.given);
+    if (!input.curves[i].time.empty()) add(drift, name, travel.rig.drift, settings.drift.given);
+    if (std::ranges::find(machines, travel.machine) != machines.end()) continue;
+    machines.push_back(travel.machine);
+    add(compliance, travel.machine, travel.rig.compliance, machine_given(travel.machine));
+  }
+  return values;
+}
+
+std::vector<double> depths_of_values(const FitInput& input, std::size_t i) {
+  if (!is_travel(input, i)) return input.curves[i].x;
+  const Travel& travel = *input.travels[i];
+  std::vector<double> depths = travel.indentations(input.curves[i], start_of(input.options));
+  for (double& depth : depths) depth = std::max(depth, 0.01 * travel.depths.front());
+  return depths;
+}
+
+std::vector<double> at_values(const FitInput& input, std::size_t i,
+                              const std::vector<double>& at_samples) {
+  if (!is_travel(input, i)) return at_samples;
+  std::vector<double> result;
+  for (const double depth : depths_of_values(input, i))
+    result.push_back(meshes::interpolated(input.travels[i]->depths, at_samples, depth));
+  return result;
+}
+
+bool is_travel(const FitInput& input, std::size_t i) {
+  return i < input.travels.size() && input.travels[i];
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,50 @@
+/// A press over the travel of a machine: where it touches, and what a blank tells of the machine.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/press_fit/rig_model.h"
+#include "calibration/statistics/curve.h"
+#include "studies/config/config.h"
+#include "studies/measurements/curve_source.h"
+
+namespace fingertip::studies {
+
+/// A curve of force over a machine's travel.
+struct Travel {
+  RigSettings settings;
+  std::string machine;         ///< files of one name share a compliance
+  double touch = 0.0;          ///< travel at which force seems to begin [m]
+  double reach = 0.0;          ///< travel from there to the curve's end [m]
+  double force = 0.0;          ///< largest, over the load cell's zero [N]
+  std::vector<double> depths;  ///< at which the press answers [m]
+  calibration::Rig rig;        ///< places among all free parameters of the fit
+
+  /// From these and a start of the fit's parameters: indentations of all values, 0 before touch.
+  std::vector<double> indentations(const calibration::Curve& curve,
+                                   const Eigen::VectorXd& parameters) const;
+};
+
+/// Nothing of it free, at the settings' values.
+calibration::Rig rig_of(const RigSettings& settings);
+
+/// What a rigid blank tells of its machine: the line F = (x - x0)/c through its forces from a tenth
+/// of the largest on. The deviation is that of the slope, as wide as Student's t, and of c between
+/// the lower and the upper half of these forces where they differ by more. Throws InvalidInput for
+/// fewer than six such forces, and where the force does not grow.
+RigSetting compliance_of_blank(const calibration::Curve& curve);
+
+/// `rig` with the compliance that its blank tells, or those `others` of its machine, if there is
+/// one; what is said of that goes into `notes`, once. Throws InvalidInput (key calibration.rig) for
+/// a compliance beside a blank, and as readers of files do.
+RigSettings with_blank(RigSettings rig, std::vector<CurveSource> others,
+                       std::vector<std::string>& notes);
+
+/// The settings that concern `curve`, and what its forces tell of the touch: F^(2/3) of Hertz is
+/// straight in delta, from 5 to 40 % of the largest force. Throws InvalidInput (key
+/// calibration.rig) for a travel that ends before the given touch, for no force, and for a drift
+/// without times.
+Travel travel_of(const calibration::Curve& curve, const CalibrationSettings& settings);
+
+}  // namespace fingertip::studies

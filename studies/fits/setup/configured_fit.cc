@@ -1,0 +1,262 @@
+#include "studies/fits/setup/configured_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/press_fit/lattice_forward_model.h"
+#include "studies/config/finger_defaults.h"
+#include "studies/fits/models/continuum_model.h"
+#include "studies/fits/models/fit_relaxation.h"
+#include "studies/fits/models/fit_suspects.h"
+#include "studies/fits/setup/fit_curves.h"
+#include "studies/fits/setup/fit_parameters.h"
+#include "studies/fits/setup/fit_plan.h"
+#include "studies/jobs/provenance.h"
+#include "studies/presses/press_setup.h"
+
+namespace fingertip::studies {
+
+using calibration::FreeParameter;
+using calibration::MaterialParameter;
+using lattice::ModelKind;
+
+namespace {
+
+/// A hundredth of a standard error is close enough for a model that takes seconds to answer.
+constexpr double search_tolerance = 1e-2;
+
+/// Finite strain that adds less to the deepest force than this is not worth its cost.
+constexpr double small_excess = 0.01;
+
+using enum MaterialParameter;
+
+void check_profile(const LoadedConfig& loaded, const FitInput& input) {
+  const auto known = [&](const std::string& word) {
+    return std::ranges::any_of(input.options.free, [&](const FreeParameter& free) {
+      return calibration::label(free) == word;
+    });
+  };
+  const std::vector<std::string>& names = input.profile;
+  if (names.empty()) return;
+  if (names.size() != 2 || names[0] == names[1] || !known(names[0]) || !known(names[1]))
+    throw refused(loaded, "calibration.profile", "",
+                  "a profile is drawn over two different free parameters",
+                  "name two of those that are free, or none");
+}
+
+void check_data(const LoadedConfig& loaded) {
+  const CalibrationSettings& settings = loaded.config.calibration;
+  if (settings.problem == CalibrationProblem::curve && !settings.data.empty())
+    throw refused(loaded, "calibration.data", "",
+                  "the problem curve makes its data by the continuum",
+                  "leave data out, or take the problem experiment");
+}
+
+/// What a model would refuse is said before the continuum runs for it.
+void check_models(const LoadedConfig& loaded, const FitInput& input) {
+  for (std::size_t i = 0; i < input.kinds.size(); ++i) {
+    const bool lattice = input.kinds[i] == CurveKind::press;
+    if (!lattice && input.kinds[i] != CurveKind::continuum) continue;
+    try {
+      if (lattice)
+        calibration::LatticeForwardModel(input.presses[i], parameters_of(input));
+      else
+        continuum_model(input.continua[i], parameters_of(input), "", {});
+    } catch (const meshes::InvalidInput& error) {
+      std::vector<meshes::Violation> broken = error.violations();
+      for (meshes::Violation& violation : broken)
+        if (violation.key == "parameters") violation.key = "calibration.parameters";
+      throw loaded.locate(broken);
+    }
+  }
+}
+
+/// The lattice is needed where constants are sought or the press is the lattice's.
+lattice::PressSetup base_of(const LoadedConfig& loaded) {
+  return press_setup(with_sets(loaded, {"press.mode=static"}), lattice_of_fit(loaded));
+}
+
+/// Presses that are planned have no times.
+void check_plan(const LoadedConfig& loaded, const FitInput& input) {
+  if (!input.branches.empty())
+    throw refused(loaded, "rubber.relaxation", "",
+                  "a plan is one of presses in equilibrium, and a rubber that relaxes depends on "
+                  "time",
+                  "plan with rubber.relaxation = [], the rubber after long times");
+}
+
+void check_model(const LoadedConfig& loaded) {
+  const CalibrationSettings& settings = loaded.config.calibration;
+  const ModelKind model = loaded.config.press.lattice.model;
+  const bool by_press = settings.problem == CalibrationProblem::curve ||
+                        settings.problem == CalibrationProblem::experiment;
+  if (by_press && model == ModelKind::published)
+    throw refused(loaded, "lattice.model", "published",
+                  "the published model has a rule for its constants and is not calibrated",
+                  "calibrate central, hookean or network");
+  const meshes::StrainEnergy& energy = loaded.config.press.rubber.energy;
+  if (settings.problem == CalibrationProblem::finite_strain && energy != meshes::StrainEnergy())
+    throw refused(loaded, "rubber.law", std::string(meshes::name(energy.law)),
+                  "the problem finite-strain fits the neo-Hookean law, logarithmic, alone",
+                  "take calibration.problem = \"material\", which fits every law");
+}
+
+/// Forces are proportional to a modulus at held Poisson's ratio: to ask for others costs nothing.
+bool has_profile_intervals(const CalibrationSettings& wanted, const FitInput& input) {
+  if (wanted.problem != CalibrationProblem::experiment) return false;
+  if (wanted.intervals != IntervalKind::automatic) return wanted.intervals == IntervalKind::profile;
+  return asks_one_press(input);
+}
+
+/// Where the presses of a fit come from.
+enum class Presses { made, planned };
+
+FitSetup assembled(const LoadedConfig& given, Presses presses) {
+  const CalibrationSettings& wanted = given.config.calibration;
+  const LoadedConfig loaded = knows_relaxation(wanted) ? lasting(given) : given;
+  check_model(loaded);
+  check_data(loaded);
+  FitSetup fit;
+  fit.input.problem = wanted.problem;
+  fit.input.base = base_of(loaded);
+  fit.input.options.free = free_list(given, fit.input.base);
+  if (const auto note = held_ratio_note(given, fit.input)) fit.notes.push_back(*note);
+  if (knows_relaxation(wanted)) fit.input.branches = branches_of(given, fit.input.options.free);
+  if (presses == Presses::planned) check_plan(given, fit.input);
+  fit.input.options.robust_width = wanted.robust_width;
+  fit.input.options.tolerance = search_tolerance;
+  fit.input.options.serial = wanted.problem == CalibrationProblem::experiment;
+  fit.input.program = "fingertip " + program_version();
+  fit.input.profile = wanted.profile;
+  fit.input.density_known = loaded.entries.at("rubber.density").given;
+  fit.input.retardation_time_known = loaded.entries.at("rubber.retardation_time").given;
+  bound_poissons_ratio(loaded, fit.input);
+  const bool from_continuum =
+      wanted.problem == CalibrationProblem::curve ||
+      (wanted.problem == CalibrationProblem::damping && wanted.data.empty());
+  if (presses == Presses::planned) {
+    add_planned_curves(fit, loaded);
+  } else if (from_continuum) {
+    add_continuum_curves(fit, loaded);
+  } else {
+    add_measured_curves(fit, loaded);
+  }
+  start_branches(given, fit.input);
+  if (!fit.input.branches.empty() && wanted.bias && !by_continuum(fit.input))
+    throw refused(
+        given, "calibration.bias", "true",
+        "the continuum beside a fit presses a rubber in equilibrium, and this one relaxes",
+        "leave it out, or let the continuum answer: calibration.forward = \"continuum\"");
+  check_profile(loaded, fit.input);
+  fit.input.scale_to_data = wanted.problem == CalibrationProblem::experiment ||
+                            wanted.problem == CalibrationProblem::finite_strain;
+  fit.input.start_ratios = start_ratios(fit.input);
+  fit.input.profile_intervals = has_profile_intervals(wanted, fit.input);
+  check_models(loaded, fit.input);
+  // A reference ends where every force is known that well.
+  if (by_continuum(fit.input)) fit.input.theory_error_of = "the continuum's tolerance";
+  if (by_continuum(fit.input))
+    for (const lattice::PressSetup& press : fit.input.presses)
+      fit.input.theory_error.emplace_back(press.protocol.samples.size(),
+                                          loaded.config.reference.tolerance);
+  fit.input.with_lattice_error = std::ranges::all_of(fit.input.kinds, [](CurveKind kind) {
+    return kind == CurveKind::press || kind == CurveKind::moving_press;
+  });
+  fit.loaded = given;
+  return fit;
+}
+
+/// The finite law knows these, too, and nobody chose small strain.
+bool may_be_finite(const LoadedConfig& loaded, const FitInput& input) {
+  const auto given = [&](const char* key) { return loaded.entries.at(key).given; };
+  return !given("lattice.model") && !given("lattice.kinematics") && !given("lattice.constants") &&
+         std::ranges::all_of(parameters_of(input), [](MaterialParameter parameter) {
+           return calibration::is_of_the_rubber(parameter) || parameter == bond ||
+                  parameter == contact;
+         });
+}
+
+/// Data beyond small strain are fitted by the finite law, or what it adds to the forces counts as
+/// uncertain; both are said before the fit.
+FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit, Presses presses,
+                             const std::vector<std::vector<double>>& excess) {
+  double most = 0.0, depth = 0.0;
+  for (std::size_t i = 0; i < excess.size(); ++i)
+    if (std::abs(excess[i].back()) > std::abs(most)) {
+      most = excess[i].back();
+      const lattice::PressSetup& press = fit.input.presses[i];
+      depth = press.protocol.depth / press.geometry.thickness();
+    }
+  if (std::abs(most) <= small_excess) return fit;
+  const std::string said = strain_words(depth, most);
+  if (may_be_finite(loaded, fit.input)) {
+    FitSetup finite = assembled(with_sets(loaded, {"lattice.model=network"}), presses);
+    finite.notes.push_back(said +
+                           ": the finite law is fitted, lattice.model = network (small "
+                           "strain on request: lattice.kinematics = small)");
+    return finite;
+  }
+  if (loaded.entries.at("lattice.kinematics").given) {
+    fit.notes.push_back(said + "; small strain is fitted as asked by lattice.kinematics");
+    return fit;
+  }
+  fit.input.theory_error = excess;
+  fit.input.theory_error_of = "what finite strain adds";
+  fit.notes.push_back(said +
+                      ": that difference counts as an error of the model, which widens the "
+                      "intervals (the finite law: lattice.model = network)");
+  return fit;
+}
+
+/// How long the search may take is said before it begins.
+void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
+  const auto& kinds = fit.input.kinds;
+  const bool pressed = std::ranges::find(kinds, CurveKind::press) != kinds.end() ||
+                       std::ranges::find(kinds, CurveKind::moving_press) != kinds.end();
+  const bool costs = pressed && (fit.input.branches.empty() || !asks_one_press(fit.input));
+  if (!costs && !loaded.entries.at("calibration.evaluations").given) return;
+  fit.input.options.max_evaluations = loaded.config.calibration.evaluations;
+  fit.notes.push_back(
+      fmt::format("the search may do {} evaluations (calibration.evaluations), each "
+                  "a press of every curve",
+                  fit.input.options.max_evaluations));
+}
+
+FitSetup set_up(const LoadedConfig& loaded, Presses presses) {
+  FitSetup first = assembled(loaded, presses);
+  const auto excess = excess_of_finite_strain(first.input);
+  FitSetup fit = at_the_right_strain(loaded, std::move(first), presses, excess);
+  if (fit.input.base.lattice.kinematics == lattice::Kinematics::small)
+    fit.input.finite_excess = excess;
+  set_budget(loaded, fit);
+  if (lattice_of_fit(loaded) != LatticeUse::none)
+    for (const std::string& note : spacing_notes(loaded)) fit.notes.push_back(note);
+  fit.input.candidates = candidates_of(
+      knows_relaxation(loaded.config.calibration) ? lasting(fit.loaded) : fit.loaded, fit);
+  return fit;
+}
+
+}  // namespace
+
+std::string strain_words(double depth, double excess) {
+  return fmt::format(
+      "the data go to {:.0f} % of the rubber's thickness, where a neo-Hookean solid is "
+      "{:.0f} % {} than small strain has it",
+      100.0 * depth, 100.0 * std::abs(excess), excess < 0.0 ? "softer" : "stiffer");
+}
+
+FitSetup fit_setup(const LoadedConfig& loaded) {
+  return set_up(loaded, Presses::made);
+}
+
+FitSetup plan_setup(const LoadedConfig& loaded) {
+  const CalibrationProblem problem = loaded.config.calibration.problem;
+  if (problem != CalibrationProblem::experiment)
+    throw refused(loaded, "calibration.problem", std::string(name(problem)),
+                  "a plan is one of measured presses", "take the problem experiment");
+  return set_up(loaded, Presses::planned);
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,23 @@
+/// The input of a fit beside the configuration that it comes from.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/config/loader.h"
+#include "studies/fits/models/fit_input.h"
+
+namespace fingertip::studies {
+
+/// A fit's input as far as the configuration and measured files tell. The continuum of a curve
+/// answers for it, makes its data (y is then still empty), or can judge the lattice.
+struct FitSetup {
+  LoadedConfig loaded;  ///< what is fitted: the configuration, or that at finite strain
+  FitInput input;
+  bool data_from_continuum = false;
+  std::vector<std::vector<std::string>> settings;  ///< of measured or planned presses, as --set
+  bool contact_known = true;                       ///< of all of them, not by default
+  std::vector<std::string> notes;  ///< on measured files, strain and budget; for people
+};
+
+}  // namespace fingertip::studies

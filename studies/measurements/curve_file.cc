@@ -1,0 +1,326 @@
+#include "studies/measurements/curve_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "studies/measurements/curve_columns.h"
+#include "studies/measurements/curve_rows.h"
+#include "studies/measurements/curve_text.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+using std::string_view;
+
+/// The curves of one file.
+class CurveReader {
+ public:
+  CurveReader(const CurveSource& source, const std::vector<CurveQuantities>& allowed, bool in_time)
+      : problems_(source.path),
+        source_(source),
+        allowed_(allowed),
+        columns_(source, allowed, problems_),
+        wants_time_(in_time),
+        text_(text_of(source.path, problems_)) {}
+  std::vector<MeasuredFile> read();
+
+ private:
+  MeasuredFile read_table(const TextTable& table);
+  void choose_pair();
+  void choose_sigma();
+  bool is_travel() const { return quantities_.x.name == measured::travel.x.name; }
+  void note_unused();
+  void read_setting(const Line& line);
+  void read_row(std::size_t row);
+  std::optional<double> read_cell(const CurveColumn& column, std::size_t row);
+  bool read_sigma(CurveRow& row, std::size_t place);
+  void keep(const CurveRow& row, std::size_t place);
+  void check_signs();
+  void check_direction();
+
+  FileProblems problems_;
+  const CurveSource& source_;
+  const std::vector<CurveQuantities>& allowed_;
+  CurveColumns columns_;
+  bool wants_time_ = false;
+  std::string text_;
+  std::vector<MeasuredSetting> settings_;
+  const TextTable* table_ = nullptr;  ///< at hand
+  CurveQuantities quantities_;
+  CurveColumn x_, y_;
+  std::optional<CurveColumn> sigma_, time_;
+  bool own_error_ = false;  ///< sigma_ is a program's force_error, which may be unknown
+  std::vector<CurveRow> rows_;
+  std::size_t data_rows_ = 0, before_start_ = 0, without_error_ = 0;
+  MeasuredFile result_;
+};
+
+void CurveReader::read_setting(const Line& line) {
+  string_view comment = trimmed(line.text);
+  while (comment.starts_with('#')) comment = trimmed(comment.substr(1));
+  const auto equals = comment.find('=');
+  const std::string key(trimmed(comment.substr(0, equals)));
+  const auto dot = key.find('.');
+  const bool is_key = equals != comment.npos && dot != key.npos && dot > 0 &&
+                      dot + 1 < key.size() &&
+                      key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789.") == key.npos &&
+                      key.find('.', dot + 1) == key.npos;
+  if (!is_key) return;
+  const std::string value(trimmed(comment.substr(equals + 1)));
+  if (value.empty())
+    problems_.add(line.number, key, "", "the value is missing", "write '# section.key = value'");
+  const auto earlier = std::ranges::find(settings_, key, &MeasuredSetting::key);
+  if (earlier != settings_.end())
+    problems_.add(line.number, key, shown(value),
+                  fmt::format("is given already in line {}", earlier->line), "keep one of them");
+  else
+    settings_.push_back({key, value, line.number});
+}
+
+void CurveReader::choose_pair() {
+  for (const CurveQuantities& pair : allowed_) {
+    const auto x = columns_.find(*table_, pair.x.name), y = columns_.find(*table_, pair.y.name);
+    if (!x || !y) continue;
+    quantities_ = pair;
+    x_ = columns_.column(*table_, *x, pair.x);
+    y_ = columns_.column(*table_, *y, pair.y);
+    result_.x_quantity = pair.x.name;
+    result_.y_quantity = pair.y.name;
+    return;
+  }
+  throw std::logic_error("a table without its columns");
+}
+
+void CurveReader::choose_sigma() {
+  if (source_.sigma > 0.0) return;
+  auto index = columns_.find(*table_, "sigma");
+  own_error_ = !index && quantities_.y.name == "force" && source_.columns.empty();
+  if (own_error_) index = columns_.find(*table_, "force_error");
+  if (index)
+    sigma_ = columns_.column(*table_, *index,
+                             {own_error_ ? "force_error" : "sigma", quantities_.y.unit});
+}
+
+void CurveReader::note_unused() {
+  std::string unused;
+  for (std::size_t i = 0; i < table_->titles.size(); ++i)
+    if (i != x_.index && i != y_.index && !(sigma_ && i == sigma_->index) &&
+        !(time_ && i == time_->index))
+      unused += (unused.empty() ? "" : ", ") + table_->titles[i].written;
+  if (!unused.empty()) result_.notes.push_back("columns that are not used: " + unused);
+}
+
+std::optional<double> CurveReader::read_cell(const CurveColumn& column, std::size_t row) {
+  constexpr double largest = 1e60;
+  const string_view cell = table_->rows[row][column.index];
+  const auto value = number_in(cell);
+  if (value && std::isfinite(*value)) {
+    const double si = column.si(*value);
+    const double size = std::abs(si);
+    if (si == 0.0 ? *value == 0.0 : size >= 1.0 / largest && size <= largest) return si;
+  }
+  const bool comma = cell.find(',') != cell.npos;
+  problems_.add(table_->lines[row], column.title, shown(cell),
+                cell.empty() ? "the cell is empty" : "must be a finite number of plausible size",
+                comma ? "write decimals with a point" : "correct or delete the row");
+  return {};
+}
+
+/// False where the row cannot be used.
+bool CurveReader::read_sigma(CurveRow& row, std::size_t place) {
+  row.sigma = source_.sigma;
+  if (!sigma_) return true;
+  const string_view cell = table_->rows[place][sigma_->index];
+  if (own_error_ && (cell.empty() || number_in(cell) == 0.0)) {
+    ++without_error_;
+    return true;
+  }
+  const auto sigma = read_cell(*sigma_, place);
+  if (!sigma) return false;
+  row.sigma = *sigma;
+  if (row.sigma > 0.0) return true;
+  problems_.add(row.line, sigma_->title, shown(cell), "a standard deviation is positive",
+                "correct it, or leave the whole column out where it is unknown");
+  return false;
+}
+
+void CurveReader::read_row(std::size_t place) {
+  ++data_rows_;
+  CurveRow row;
+  row.line = table_->lines[place];
+  const auto x = read_cell(x_, place), y = read_cell(y_, place);
+  const auto time = time_ ? read_cell(*time_, place) : 0.0;
+  const bool known = read_sigma(row, place);
+  if (!x || !y || !known || !time) return;
+  row.time = *time;
+  row.x = *x;
+  row.y = *y;
+  keep(row, place);
+}
+
+void CurveReader::keep(const CurveRow& row, std::size_t place) {
+  if (row.x > 0.0 || is_travel()) {
+    rows_.push_back(row);
+  } else if (quantities_.x.name == "stretch" || quantities_.x.name == "frequency") {
+    problems_.add(row.line, x_.title, shown(table_->rows[place][x_.index]),
+                  std::string(quantities_.x.name) + " is positive", "correct or delete the row");
+  } else {
+    ++before_start_;
+  }
+}
+
+void CurveReader::check_signs() {
+  if (before_start_ > 0)
+    result_.notes.push_back(fmt::format("{} rows with {} <= 0, before the start, are left out",
+                                        before_start_, quantities_.x.name));
+  if (rows_.empty()) {
+    problems_.add(0, x_.title, "",
+                  data_rows_ == 0 ? "there are no rows below the header"
+                                  : "is positive in no row, and rows before the start do not count",
+                  quantities_.x.name == "indentation"
+                      ? "indentation is positive when pressed: change its sign, or write the data"
+                      : "write the data");
+  }
+  if (quantities_.y.name != "force" || rows_.empty()) return;
+  double sum = 0.0;
+  for (const CurveRow& row : rows_) sum += row.y;
+  const auto negative =
+      std::ranges::count_if(rows_, [](const CurveRow& row) { return row.y < 0.0; });
+  if (!(sum > 0.0))
+    problems_.add(0, y_.title, fmt::format("sum of {} rows {:.3g} N", rows_.size(), sum),
+                  "forces are positive in compression",
+                  "change their sign, or say it: force = {column = ..., sign = -1}");
+  else if (negative > 0)
+    result_.notes.push_back(
+        fmt::format("{} of {} forces are negative (adhesion, drift or noise) and count as they are",
+                    negative, rows_.size()));
+}
+
+/// Positions grow as the finger is pressed: forces are larger at larger ones, on the way back, too.
+void CurveReader::check_direction() {
+  double mean_x = 0.0, mean_y = 0.0, together = 0.0;
+  for (const CurveRow& row : rows_)
+    mean_x += row.x / double(rows_.size()), mean_y += row.y / double(rows_.size());
+  for (const CurveRow& row : rows_) together += (row.x - mean_x) * (row.y - mean_y);
+  if (!is_travel() || !(together < 0.0)) return;
+  const ColumnWish* own = columns_.wish("position");
+  const std::string file = source_.path.filename().string();
+  const auto described = [](const char* quantity, const CurveColumn& column, const char* sign) {
+    return fmt::format("{} = {{column = '{}'{}}}\n", quantity, column.title, sign);
+  };
+  problems_.add(
+      0, x_.title, "", "falls while the force grows, but a position grows as the finger is pressed",
+      own != nullptr
+          ? fmt::format("turn it round: position = {{column = ..., sign = {}}}", -own->sign)
+          : "turn it round: name a file press.toml in calibration.data in place of " + file +
+                ", and write into it\n[[press]]\npath = '" + file + "'\n" +
+                described("position", x_, ", sign = -1") + described("force", y_, "") +
+                "(studies/manual/your_press.md)");
+}
+
+MeasuredFile CurveReader::read_table(const TextTable& table) {
+  table_ = &table;
+  result_ = {};
+  rows_.clear();
+  sigma_.reset(), time_.reset();
+  data_rows_ = before_start_ = without_error_ = 0;
+  choose_pair();
+  problems_.throw_if_any();
+  choose_sigma();
+  if (const auto time = columns_.find(*table_, "time"); time && (is_travel() || wants_time_))
+    time_ = columns_.column(*table_, *time, {"time", "s"});
+  problems_.throw_if_any();
+  note_unused();
+  std::size_t first = 0, end = table.rows.size();
+  if (const auto& chosen = source_.rows) {
+    if (!((*chosen)[0] >= 1.0 && (*chosen)[1] <= double(end)))
+      problems_.add(table.header_line, "rows", fmt::format("{} to {}", (*chosen)[0], (*chosen)[1]),
+                    fmt::format("the table has {} rows", end),
+                    "count them from 1, without the header");
+    problems_.throw_if_any();
+    first = std::size_t((*chosen)[0]) - 1, end = std::size_t((*chosen)[1]);
+  }
+  for (std::size_t row = first; row < end; ++row) read_row(row);
+  problems_.throw_if_any();
+  if (without_error_ > 0) {
+    for (CurveRow& row : rows_) row.sigma = 0.0;
+    result_.notes.push_back(
+        fmt::format("{} is not taken as sigma: it is unknown or 0 in {} of {} "
+                    "rows",
+                    sigma_->title, without_error_, data_rows_));
+  }
+  check_signs();
+  check_direction();
+  problems_.throw_if_any();
+  calibration::Course course;
+  course.rows = rows_.size();
+  const double begin = rows_.front().time;
+  const bool in_time = wants_time_ && time_;
+  if (is_travel() || in_time)
+    rows_ =
+        loading(std::move(rows_), course, result_.notes, in_time ? Holds::kept : Holds::left_out);
+  if (const double noise = noise_of(rows_); noise > 0.0) course.noise = noise;
+  const Abscissa abscissa{result_.x_quantity, x_.unit, std::abs(x_.factor), is_travel()};
+  if (in_time) {
+    TimedCurve timed = curve_in_time(rows_, abscissa, problems_, result_.notes);
+    result_.curve = std::move(timed.curve);
+    result_.lines = std::move(timed.lines);
+  } else {
+    result_.curve = curve_of(rows_, abscissa, problems_, result_.notes);
+  }
+  // A clock's zero is years away: a drift over it would be told from the force's zero by nothing.
+  for (double& time : result_.curve.time) time -= begin;
+  result_.curve.is_travel = is_travel();
+  result_.x_title = x_.title, result_.x_unit = x_.unit;
+  if (!result_.curve.x.empty())
+    course.rows_per_value = double(rows_.size()) / double(result_.curve.x.size());
+  result_.curve.course = std::move(course);
+  problems_.throw_if_any();
+  if (!in_time)
+    for (const double x : result_.curve.x)
+      result_.lines.push_back(
+          std::ranges::find_if(rows_, [&](const CurveRow& row) { return row.x >= x; })->line);
+  for (const std::size_t line : result_.lines)
+    result_.rows.push_back(
+        std::size_t(std::ranges::lower_bound(table.lines, line) - table.lines.begin()) + 1);
+  return std::move(result_);
+}
+
+std::vector<MeasuredFile> CurveReader::read() {
+  TextTables found = columns_.tables(text_);
+  for (const Line& comment : found.comments) read_setting(comment);
+  if (found.tables.empty() && source_.columns.empty()) columns_.refuse_header(text_);
+  problems_.throw_if_any();
+  const std::size_t count = found.tables.size();
+  if (source_.block > count)
+    problems_.add(0, "block", std::to_string(source_.block),
+                  fmt::format("the file has {} tables", count), "count them from 1");
+  problems_.throw_if_any();
+  const std::string name = source_.name.empty() ? source_.path.stem().string() : source_.name;
+  std::vector<MeasuredFile> files;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (source_.block > 0 && source_.block != i + 1) continue;
+    MeasuredFile file = read_table(found.tables[i]);
+    file.settings = settings_;
+    if (files.empty())
+      file.notes.insert(file.notes.begin(), found.notes.begin(), found.notes.end());
+    file.curve.name = count > 1 ? fmt::format("{}, test {}", name, i + 1) : name;
+    files.push_back(std::move(file));
+  }
+  return files;
+}
+
+}  // namespace
+
+std::vector<MeasuredFile> read_measured(const CurveSource& source,
+                                        const std::vector<CurveQuantities>& allowed, bool in_time) {
+  return CurveReader(source, allowed, in_time).read();
+}
+
+}  // namespace fingertip::studies

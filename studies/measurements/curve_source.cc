@@ -1,0 +1,85 @@
+#include "studies/measurements/curve_source.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "studies/config/units.h"
+#include "studies/measurements/material_test_table.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+using std::string_view;
+
+/// A column's name and the SI unit of what stands in it.
+struct KnownColumn {
+  const char *quantity, *unit, *example;
+};
+constexpr KnownColumn known_columns[] = {{"position", "m", "mm"},
+                                         {"indentation", "m", "mm"},
+                                         {"force", "N", "N"},
+                                         {"time", "s", "s"},
+                                         {"sigma", "N", "N"}};
+
+const std::set<string_view> shared_press_keys = {
+    "condition", "block",       "separator", "decimal", "skip",  "header", "rows",
+    "force",     "indentation", "position",  "time",    "sigma", "finger"};
+
+ColumnWish wish(const TestTable& table, const KnownColumn& known) {
+  table.check_keys({"column", "unit", "sign"});
+  ColumnWish found{known.quantity, table.column(), table.text("unit").value_or(""), 1.0};
+  if (!found.unit.empty())
+    table.number_of("unit", "1 " + found.unit, known.unit, std::string("1 ") + known.example);
+  found.sign = sign_of(table);
+  return found;
+}
+
+void add_press(const TestTable& press, std::vector<CurveSource>& sources) {
+  CurveSource source;
+  source.layout = layout_of(press);
+  source.rows = press.pair("rows");
+  source.block = std::size_t(press.whole("block", 0, 1, 1000000));
+  source.condition = press.text("condition").value_or("");
+  source.rigid = press.word<bool>("finger", {{"soft", false}, {"rigid", true}}, false);
+  for (const KnownColumn& known : known_columns)
+    if (known.quantity == string_view("sigma") && press.is_text(known.quantity))
+      source.sigma = *press.quantity(known.quantity, known.unit, "0.01 N");
+    else if (const auto table = press.table(known.quantity))
+      source.columns.push_back(wish(*table, known));
+  if (press.has("position") && press.has("indentation"))
+    press.refuse("indentation", "", "beside position", "leave one of the two out");
+  if (source.columns.empty() && !source.layout.has_names)
+    press.refuse("header", "false", "without a header the columns must be numbered",
+                 "write e.g. position = {column = 1, unit = \"mm\"}, and force alike");
+  if (!source.columns.empty() &&
+      ((!press.has("position") && !press.has("indentation")) || !press.has("force")))
+    press.refuse("force", "", "a press needs a force, and a position or an indentation",
+                 "give both, or neither where the file names them itself");
+  const std::vector<fs::path> paths = press.paths("path");
+  const auto name = press.text("name");
+  for (const fs::path& path : paths) {
+    source.path = path;
+    source.name = name && paths.size() == 1 ? *name
+                  : name                    ? *name + " " + path.stem().string()
+                                            : path.stem().string();
+    sources.push_back(source);
+  }
+}
+
+}  // namespace
+
+std::vector<CurveSource> curve_sources(const fs::path& entry) {
+  if (entry.extension() != ".toml") return {{entry, entry.stem().string()}};
+  const toml::table root = parsed_description(entry);
+  const TestTable whole(entry, root, "");
+  whole.check_keys({"data", "press"});
+  std::vector<CurveSource> sources;
+  each_table(entry, root, "press", "path", shared_press_keys,
+             [&](const TestTable& press) { add_press(press, sources); });
+  return sources;
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,180 @@
+#include "studies/presses/press_job.h"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "calibration/material/moduli.h"
+#include "lattice/dynamics/thread_choice.h"
+#include "lattice/press/press.h"
+#include "lattice/press/press_deviation.h"
+#include "lattice/press/press_task.h"
+#include "meshes/tables/fields_json.h"
+#include "source_hash.h"
+#include "studies/presses/controller_choice.h"
+#include "studies/presses/pace.h"
+#include "studies/presses/pictures/movie.h"
+#include "studies/presses/pictures/snapshot_files.h"
+#include "studies/presses/press_notes.h"
+#include "studies/presses/press_record.h"
+#include "studies/presses/program_summary.h"
+#include "studies/presses/static_press_job.h"
+#include "studies/presses/tracking.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+CensusEntry census_of(const lattice::PressOutcome& outcome) {
+  const lattice::LatticeCensus& census = outcome.census;
+  return {.sectors = outcome.sectors,
+          .particles = long(census.particles),
+          .expected_particles = census.expected_particles,
+          .springs = long(census.springs),
+          .cells = long(census.cells),
+          .boundary_particles = long(census.boundary_particles),
+          .ligaments = long(census.ligaments),
+          .mass = census.mass,
+          .added_mass = census.added_mass,
+          .exact_mass = census.exact_mass};
+}
+
+/// What scaled masses are expected to change of the force, beside plain ones.
+ScalingEntry scaling_of(const lattice::PressSetup& setup) {
+  const lattice::ScalingChoice choice = lattice::choose_scaling(setup);
+  ScalingEntry entry{choice.scaled, {}};
+  for (const lattice::ForceDeviation& deviation : choice.deviations)
+    entry.estimated_force_deviation.push_back({deviation.indentation, deviation.relative});
+  return entry;
+}
+
+TrackingEntry tracking_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome) {
+  const Tracking tracking = measure_tracking(outcome.trace, outcome.first_touch_time);
+  return {
+      .speed_deviation = tracking.speed_deviation,
+      .speed_deviation_at_touch = tracking.speed_deviation_at_touch,
+      // Mirror planes hold the rod of a part: no merit of the controller.
+      .tilt_deg = outcome.sectors > 1 ? meshes::unknown : tracking.tilt * 180.0 / std::numbers::pi,
+      .wanted_force = tracking.wanted_force,
+      .held_force = tracking.held_force,
+      .force_deviation = tracking.force_deviation,
+      .follows_path = setup.follows_path};
+}
+
+PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome,
+                        const std::string& status) {
+  const lattice::StepReport& step = outcome.step;
+  PressSummary summary = press_summary_head(setup, status);
+  summary.moduli =
+      moduli_entry(calibration::homogenised_moduli(setup.lattice.constants, setup.lattice.spacing));
+  summary.step = {step.step,        step.smallest,       step.omega0,
+                  step.paper_bound, step.spectral_bound, step.explanation};
+  summary.census = census_of(outcome);
+  summary.steps = {outcome.steps.accepted, outcome.steps.rejected, outcome.steps.forced,
+                   outcome.force_evaluations};
+  summary.simulated_time = outcome.simulated_time;
+  summary.wall_time = outcome.wall_time;
+  summary.real_time_factor = outcome.real_time_factor();
+  summary.slowest_real_time_factor = slowest_pace(outcome, pace_window).wall;
+  summary.threads = setup.threads;
+  summary.first_touch_time = outcome.first_touch_time;
+  summary.momentum_defect = outcome.momentum_defect;
+  if (setup.integrator == lattice::Integrator::mass_scaled) summary.scaling = scaling_of(setup);
+  summary.warnings = scaling_notes(setup);
+  summary.program = stage_entries(setup.protocol, outcome.trace);
+  if (!summary.program.empty()) summary.work_in = outcome.work_in;
+  if (setup.protocol.goes_back()) summary.loop_area = outcome.work;
+  if (!summary.controlled()) return summary;
+  summary.tracking = tracking_of(setup, outcome);
+  if (!outcome.trace.empty()) {
+    const lattice::TraceRow& last = outcome.trace.back();
+    summary.end = EndEntry{last.time, last.indentation, last.normal_force};
+  }
+  return summary;
+}
+
+/// Keeps the folder up to date while the press runs.
+class PressJournal {
+ public:
+  PressJournal(const lattice::PressSetup& setup, const fs::path& folder, const JobContext& context)
+      : setup_(setup), folder_(folder), context_(context) {}
+
+  bool observe(const lattice::PressOutcome& so_far, double fraction) {
+    const bool go_on = context_.report(fraction, "pressing");
+    // The last call before an end by force, or a failure (0 then), must be on disk whatever the
+    // time.
+    if (!go_on || fraction == 0.0 || Clock::now() - written_ > std::chrono::milliseconds(500)) {
+      write(so_far, go_on ? "running" : "interrupted");
+    }
+    return go_on;
+  }
+
+  void write(const lattice::PressOutcome& outcome, const std::string& status) {
+    outcome.response.write_csv(folder_ / "response.csv");
+    lattice::write_trace_csv(outcome.trace, folder_ / "trace.csv");
+    meshes::write_json_file(summary_of(setup_, outcome, status), folder_ / "summary.json");
+    written_ = Clock::now();
+  }
+
+ private:
+  const lattice::PressSetup& setup_;
+  fs::path folder_;
+  const JobContext& context_;
+  Clock::time_point written_;
+};
+
+void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path& folder,
+                   const JobContext& context) {
+  setup.threads = setup.threads > 0
+                      ? context.threads
+                      : lattice::fastest_threads(lattice::moving_particles(setup), context.threads);
+  PressJournal recorder(setup, folder, context);
+  std::optional<Movie> movie;
+  if (movie_pictures > 0) movie.emplace(folder / "movie", setup.geometry);
+  const auto observe = [&](const lattice::PressOutcome& so_far, double fraction) {
+    return recorder.observe(so_far, fraction);
+  };
+  const auto show = [&](const lattice::BoundaryView& view, const lattice::FingerPicture& picture) {
+    movie->add(view, picture);
+  };
+  try {
+    const lattice::PressOutcome outcome =
+        lattice::run_press(setup, observe, {movie_pictures, show});
+    recorder.write(outcome, "finished");
+    write_shapes(outcome, folder);
+    context.log("step " + meshes::to_text(outcome.step.step) + " s: " + outcome.step.explanation);
+  } catch (const meshes::NotConverged& error) {
+    set_press_status(folder, std::string("not converged: ") + error.what());
+    throw;
+  } catch (const lattice::ControllerFailed& error) {
+    set_press_status(folder, std::string("controller failed: ") + error.what());
+    throw;
+  } catch (const meshes::Interrupted&) {
+    set_press_status(folder, "interrupted");
+    throw;
+  }
+}
+
+}  // namespace
+
+Job press_job(const lattice::PressSetup& setup, int movie_pictures) {
+  if (setup.protocol.mode == meshes::DriveMode::equilibrium) return static_press_job(setup);
+  Job job;
+  job.kind = "press";
+  job.inputs = inputs_of(setup);
+  if (movie_pictures > 0) job.inputs["movie"] = movie_pictures;
+  job.source_hash = source_hash::lattice;
+  job.repeatable = repeatable(setup);
+  job.weight = press_weight(setup);
+  job.run = [setup, movie_pictures](const fs::path& folder, const JobContext& context) {
+    run_press_job(setup, movie_pictures, folder, context);
+  };
+  return job;
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,19 @@
+/// The continuum as a job.
+#pragma once
+
+#include "fem_reference/job/job.h"
+#include "studies/jobs/job.h"
+
+namespace fingertip::studies {
+
+/// The continuum by fingertip-fem. Files: job.json, summary.json, convergence.csv, tip.msh,
+/// section.csv, pressure.csv, fields/, and by analysis response.csv (static press), also
+/// transient.csv (transient), or modes.csv (modes). While it is unfinished, checkpoint/, from which
+/// it goes on when it is run again in the same folder.
+Job reference_job(const fem_reference::ReferenceJob& reference);
+
+/// The continuum's code against analytic solutions. Files: job.json, summary.json,
+/// verification.json.
+Job verification_job();
+
+}  // namespace fingertip::studies

@@ -1,0 +1,15 @@
+/// The page of a `bench` run.
+#pragma once
+
+#include <filesystem>
+
+#include "studies/files/folder_reader.h"
+#include "studies/report/page/document.h"
+
+namespace fingertip::studies::reporting {
+
+/// From bench.json, and history.json where there is one. What is damaged is left out and noted in
+/// `reader`.
+Page bench_page(const std::filesystem::path& run_folder, FolderReader& reader);
+
+}  // namespace fingertip::studies::reporting

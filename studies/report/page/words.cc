@@ -1,0 +1,212 @@
+#include "studies/report/page/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <kainjow/mustache.hpp>
+#include <stdexcept>
+
+#include "studies/report/page/templates.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+using Filling = kainjow::mustache::data;
+
+/// Stand in the rendered text for a blank line and around the number of a value.
+constexpr char block_end = '\x1e', value_mark = '\x1a';
+
+Filling filling_of(const Words& words);
+
+Filling filling_of(const Words::Value& value) {
+  if (const bool* condition = std::get_if<bool>(&value)) return *condition;
+  if (const std::string* text = std::get_if<std::string>(&value))
+    return text->empty() ? Filling(false) : Filling(*text);
+  Filling list{kainjow::mustache::list()};
+  for (const Words& entry : std::get<WordList>(value)) list << filling_of(entry);
+  return list;
+}
+
+Filling filling_of(const Words& words) {
+  Filling object;
+  for (const auto& [name, value] : words.values) object.set(name, filling_of(value));
+  return object;
+}
+
+/// Where kainjow shows nothing for an unknown name, this one says so.
+class StrictNames : public kainjow::mustache::context<std::string> {
+ public:
+  StrictNames(const Filling& root, const std::string& where) : context(&root), where_(where) {}
+
+  const Filling* get(const std::string& name) const override {
+    if (const Filling* found = context::get(name)) return found;
+    throw std::logic_error(fmt::format("chapters/{}.mustache: no value for {}", where_, name));
+  }
+
+ private:
+  const std::string& where_;
+};
+
+/// A template without line breaks: they are spaces, blank lines end a block.
+std::string on_one_line(std::string_view text) {
+  std::string flat;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    flat += line.empty() ? std::string(1, block_end) : std::string(line) + ' ';
+  }
+  return flat;
+}
+
+/// Without spaces at its ends and with single ones inside.
+std::string squeezed(std::string_view text) {
+  std::string result;
+  for (const char c : text)
+    if (c != ' ' || (!result.empty() && result.back() != ' ')) result += c;
+  if (result.ends_with(' ')) result.pop_back();
+  return result;
+}
+
+/// The part of `text` before `end`, which it loses together with `end`; all of it without one.
+std::string_view cut_off(std::string_view& text, std::string_view end) {
+  const std::size_t at = std::min(text.find(end), text.size());
+  const std::string_view part = text.substr(0, at);
+  text.remove_prefix(std::min(at + end.size(), text.size()));
+  return part;
+}
+
+std::string_view without_space(std::string_view text) {
+  if (text.starts_with(' ')) text.remove_prefix(1);
+  return text;
+}
+
+/// Puts a template's blocks together with what they name.
+class Writer {
+ public:
+  explicit Writer(ChapterData data) : data_(std::move(data)) {
+    std::erase_if(data_.figures, [](const Figure& figure) { return figure.panels.empty(); });
+    std::erase_if(data_.tables, [](const auto& entry) { return entry.second.rows.empty(); });
+    data_["force_unit"] = unit_name(shown_units().force);
+    data_["stress_unit"] = unit_name(shown_units().stress);
+  }
+
+  Chapter chapter(std::string_view text) {
+    chapter_.id = data_.id;
+    const std::string all = rendered(text);
+    for (std::string_view rest = all; !rest.empty();) {
+      const std::string block = squeezed(cut_off(rest, {&block_end, 1}));
+      if (block.starts_with("# "))
+        chapter_.title = filled(block.substr(2));
+      else if (block.starts_with('['))
+        place(block);
+      else
+        add_paragraph(block);
+    }
+    if (!data_.figures.empty()) refuse("has no place for figure " + data_.figures.front().name);
+    if (!data_.tables.empty()) refuse("has no place for table " + data_.tables.begin()->first);
+    if (!data_.listings.empty())
+      refuse("has no place for listing " + data_.listings.begin()->first);
+    return std::move(chapter_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw std::logic_error(fmt::format("chapters/{}.mustache: {}", data_.name, what));
+  }
+
+  /// The template with numbers in the place of values, which `values_` keeps.
+  std::string rendered(std::string_view text) {
+    kainjow::mustache::mustache view(on_one_line(text));
+    if (!view.is_valid()) refuse(view.error_message());
+    view.set_custom_escape([this](const std::string& value) {
+      values_.push_back(value);
+      return fmt::format("{}{}{}", value_mark, values_.size() - 1, value_mark);
+    });
+    const Filling root = filling_of(static_cast<const Words&>(data_));
+    StrictNames names(root, data_.name);
+    return view.render(names);
+  }
+
+  /// With the values in their places.
+  std::string filled(std::string_view text) const {
+    std::string result;
+    while (!text.empty()) {
+      result += cut_off(text, {&value_mark, 1});
+      if (!text.empty())
+        result += values_.at(std::stoul(std::string(cut_off(text, {&value_mark, 1}))));
+    }
+    return result;
+  }
+
+  /// "[kind id] rest"
+  void place(std::string_view block) {
+    block.remove_prefix(1);
+    const std::string_view kind = cut_off(block, " ");
+    const std::string id = filled(cut_off(block, "]"));
+    block = without_space(block);
+    if (kind == "figure") {
+      const auto found = std::ranges::find(data_.figures, id, &Figure::name);
+      if (found == data_.figures.end()) return;
+      const std::string title = filled(cut_off(block, " |")),
+                        caption = filled(without_space(block));
+      chapter_.blocks.push_back(FigureBlock{std::move(*found), title, caption});
+      data_.figures.erase(found);
+    } else if (kind == "table") {
+      auto found = data_.tables.extract(id);
+      if (found.empty()) return;
+      found.mapped().caption = filled(block);
+      chapter_.blocks.push_back(std::move(found.mapped()));
+    } else if (kind == "listing") {
+      const auto found = data_.listings.extract(id);
+      if (!found.empty()) chapter_.blocks.push_back(Listing{filled(block), found.mapped()});
+    } else {
+      refuse(fmt::format("unknown kind of block: {}", kind));
+    }
+  }
+
+  void add_paragraph(std::string_view block) {
+    Paragraph paragraph;
+    paragraph.warning = block.starts_with("! ");
+    if (paragraph.warning) block.remove_prefix(2);
+    if (block.starts_with("**")) {
+      block.remove_prefix(2);
+      paragraph.lead = filled(cut_off(block, "**"));
+    }
+    paragraph.text = filled(without_space(block));
+    if (!paragraph.lead.empty() || !paragraph.text.empty())
+      chapter_.blocks.push_back(std::move(paragraph));
+  }
+
+  ChapterData data_;
+  Chapter chapter_;
+  std::vector<std::string> values_;
+};
+
+}  // namespace
+
+Chapter written(ChapterData data) {
+  const std::string_view text = template_text(data.name);
+  return written(std::move(data), text);
+}
+
+Chapter written(ChapterData data, std::string_view text) {
+  return Writer(std::move(data)).chapter(text);
+}
+
+std::string sentences(const std::string& name, const Words& words) {
+  ChapterData data(name);
+  data.values = words.values;
+  const Chapter chapter = written(std::move(data));
+  return chapter.blocks.empty() ? "" : std::get<Paragraph>(chapter.blocks.front()).text;
+}
+
+std::string if_known(double value, const std::string& text) {
+  return std::isfinite(value) ? text : "";
+}
+
+std::string joined(const std::string& first, const std::string& second) {
+  return first.empty() || second.empty() ? first + second : first + ' ' + second;
+}
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,113 @@
+/// What a run folder holds, read back from disk; SI.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/files/fit_file.h"
+#include "fem_reference/job/run_summary.h"
+#include "fem_reference/job/run_tables.h"
+#include "fem_reference/verification/verification_file.h"
+#include "lattice/press/trace.h"
+#include "meshes/press/press_response.h"
+#include "studies/files/case_summary.h"
+#include "studies/files/folder_reader.h"
+#include "studies/files/manifest.h"
+#include "studies/files/mode_table.h"
+#include "studies/files/press_summary.h"
+#include "studies/files/run_tables.h"
+
+namespace fingertip::studies::reporting {
+
+/// NaN when there is none; NaN among others does not count.
+double largest_magnitude(const std::vector<double>& values);
+
+using meshes::column;
+
+/// The rubber's constants the models are measured against [Pa]; NaN where no file tells them.
+struct Target {
+  double youngs_modulus = meshes::unknown;
+  double shear_modulus = meshes::unknown;
+  double poissons_ratio = meshes::unknown;
+  double bulk_modulus = meshes::unknown;
+};
+
+/// Elastic constants of a lattice as `validate` puts them into summary.json [Pa].
+struct Moduli {
+  double E_100 = meshes::unknown, E_110 = meshes::unknown, E_111 = meshes::unknown;
+  double G = meshes::unknown, nu_100 = meshes::unknown, K = meshes::unknown;
+};
+
+/// What a press in time leaves in its folder; empty where it does not.
+struct PressFiles {
+  PressSummary summary;
+  std::vector<lattice::TraceRow> trace;
+  std::vector<BoundaryRow> boundary;
+  std::vector<BoundarySpringRow> boundary_springs;
+  std::vector<SnapshotRow> snapshots;
+  std::vector<SnapshotPointRow> snapshot_points;
+};
+PressFiles read_press_files(const std::filesystem::path& folder, FolderReader& reader);
+
+/// One lattice model of a validate run.
+struct ModelData : PressFiles {
+  std::string name;    ///< "published", "central", "hookean", ...
+  std::string status;  ///< of its press, e.g. "ok"
+  Moduli moduli;
+  std::vector<double> force_error;    ///< relative, at RunData::depths; NaN where not reached
+  double l2_error = meshes::unknown;  ///< relative L2 error of the force curve
+  double real_time_factor = meshes::unknown;  ///< simulated over wall time
+  calibration::ModuliFile calibration;        ///< calibration_NAME/calibration.json, or empty
+  meshes::PressResponse response;             ///< empty when absent
+
+  /// Relative force error at the last depth reached; NaN when there is none.
+  double last_force_error() const;
+};
+
+/// A run folder; what it does not hold is empty. Most entries are those of `validate`.
+struct RunData {
+  std::filesystem::path folder;
+  std::string verb;  ///< what made it, as its manifest tells
+  std::string status;
+  std::vector<double> depths;  ///< where force errors are given [m]
+  Target target;
+  CaseSummary summary;  ///< of `validate`
+  StudyEntry study;     ///< its study, or empty
+  Manifest manifest;
+  calibration::ModuliFile moduli_fit;   ///< of `calibrate` to moduli
+  bool fitted_curves = false;           ///< of `calibrate` to curves, see calibration_data.h
+  std::string parameters;               ///< parameters.toml as text
+  fem_reference::RunSummary continuum;  ///< reference/summary.json; its own of `reference`
+  JsonEntry reference_job;              ///< reference/job.json, what the continuum was asked
+  fem_reference::VerificationFile verification;
+  meshes::PressResponse response;   ///< of a press itself
+  std::vector<ContactRow> contact;  ///< of a static press
+  std::vector<VibrationMode> modes;
+  meshes::PressResponse reference;  ///< empty when the continuum was not run
+  std::vector<fem_reference::ConvergenceRow> convergence;
+  std::vector<fem_reference::SectionRow> section;
+  std::vector<fem_reference::PressureRow> pressure;
+  std::vector<CubeRow> cubes;
+  std::vector<PublishedStudyRow> published_study;
+  std::vector<EquilibriumStudyRow> equilibrium_study;
+  std::vector<VariantRow> variants;
+  std::vector<LaterRow> later;
+  std::vector<ModelData> models;  ///< published, central, hookean, then any others
+
+  const ModelData* model(const std::string& name) const;
+};
+
+/// Reads any run folder. What is damaged stays empty and is noted in `reader`. Throws InvalidInput
+/// when the folder holds neither a summary.json nor a calibration.json.
+RunData read_run(const std::filesystem::path& folder, FolderReader& reader);
+
+/// Whether `folder` is the run of `reference`, which keeps its job.json at the top.
+bool is_continuum(const std::filesystem::path& folder);
+
+/// Normal force [N] at `depth` [m]; NaN when the press did not get there. A controller may stop a
+/// rounding error short of the last depth.
+double force_at(const meshes::PressResponse& response, double depth);
+
+}  // namespace fingertip::studies::reporting

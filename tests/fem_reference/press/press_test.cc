@@ -1,0 +1,295 @@
+/// The press along the axis at small strain; tilted_press_test.cc, finite_press_test.cc and
+/// press_checkpoint_test.cc have the rest.
+#include "fem_reference/press/press.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "meshes/base/errors.h"
+#include "tests/fem_reference/press/pressing.h"
+
+using namespace fingertip;
+using fem_reference::ContactPoint;
+using fem_reference::LinearSolver;
+using fem_reference::PressState;
+using fem_reference::ReferenceJob;
+using meshes::ContactMode;
+
+namespace {
+
+double force_of(const ReferenceJob& job, double longest_step = 0.01) {
+  return pressed(job, longest_step).sample.normal_force;
+}
+
+/// The force [gf] that two independent programs give; tests/fem_reference/data has all of them.
+constexpr std::pair<double, double> table[] = {{1e-4, 0.07573}, {3e-4, 0.44099},  {5e-4, 1.02296},
+                                               {1e-3, 3.25628}, {2e-3, 10.22344}, {3e-3, 19.42179}};
+
+TEST(ContinuumPress, FrictionlessForceIsThatOfTheTable) {
+  ReferenceJob job = small_press();
+  job.refinement = 0.5;
+  job.press_to({3e-3});
+  Pressing pressing(job);
+  for (const auto& [indentation, force] : table) {
+    const PressState state = pressing.press.advance(indentation);
+    EXPECT_NEAR(state.sample.normal_force / 9.80665e-3 / force, 1.0,
+                indentation < 5e-4 ? 0.03 : 0.005)
+        << indentation;
+    EXPECT_EQ(state.steps, 1);  // it does not depend on its path
+  }
+}
+
+/// What the plane gives, the rod takes.
+TEST(ContinuumPress, ForcesBalance) {
+  for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
+    ReferenceJob job = small_press();
+    job.protocol.contact = mode;
+    Pressing pressing(job);
+    double previous = 0.0;
+    for (const double indentation : {1e-4, 5e-4, 1e-3}) {
+      const PressState state = pressing.press.advance(indentation);
+      const meshes::Vector3 bond = pressing.press.bond_reaction();
+      EXPECT_NEAR(4 * bond.z() / state.sample.normal_force, 1.0, 1e-9);
+      EXPECT_GT(state.sample.normal_force, previous);
+      EXPECT_EQ(state.sample.lateral_force_x, 0.0);
+      EXPECT_EQ(state.sample.torque_y, 0.0);
+      previous = state.sample.normal_force;
+    }
+  }
+}
+
+/// Virtual work: nothing slips against friction, so the force is the energy's derivative.
+TEST(ContinuumPress, ForceIsTheEnergysDerivative) {
+  ReferenceJob job = small_press();
+  for (const double indentation : {3e-4, 1e-3}) {
+    const double h = 1e-3 * indentation;
+    job.press_to({indentation + h});
+    Pressing pressing(job);
+    const double before = pressing.press.advance(indentation - h).energy;
+    const double force = pressing.press.advance(indentation).sample.normal_force;
+    const double after = pressing.press.advance(indentation + h).energy;
+    EXPECT_NEAR((after - before) / (2 * h) / force, 1.0, 1e-5);
+  }
+}
+
+/// Along the axis a node once stuck stays, so that the plane does no work but along its normal.
+TEST(ContinuumPress, StickStoresTheWorkOfItsForce) {
+  ReferenceJob job = small_press();
+  job.protocol.contact = ContactMode::stick;
+  Pressing pressing(job);
+  double work = 0.0, last = 0.0, energy = 0.0, indentation = 0.0;
+  while (indentation < job.protocol.depth * (1 - 1e-9)) {
+    const double step = std::min(2e-5, job.protocol.depth - indentation);
+    indentation += step;
+    const PressState state = pressing.press.advance(indentation);
+    work += step * (last + state.sample.normal_force) / 2;
+    last = state.sample.normal_force;
+    energy = state.energy;
+  }
+  EXPECT_NEAR(energy / work, 1.0, 2e-3);
+}
+
+TEST(ContinuumPress, PressuresArePositiveAndAddUp) {
+  ReferenceJob job = small_press();
+  const PressState state = pressed(job);
+  EXPECT_EQ(int(state.contact.size()), state.active_nodes);
+  EXPECT_TRUE(std::ranges::is_sorted(state.contact, {}, &ContactPoint::radius));
+  for (const ContactPoint& point : state.contact) EXPECT_GE(point.pressure, 0.0);
+  const double a = state.sample.contact_radius;
+  EXPECT_NEAR(a, 3.494e-3, state.node_spacing);
+  // Hertz's profile has 1.5 times the mean pressure at the pole; the bond makes it steeper.
+  const double mean = state.sample.normal_force / (std::numbers::pi * a * a);
+  EXPECT_GT(state.sample.max_pressure, 1.4 * mean);
+  EXPECT_LT(state.sample.max_pressure, 1.7 * mean);
+}
+
+TEST(ContinuumPress, StickIsStifferAndDoesNotDependOnItsSteps) {
+  ReferenceJob job = small_press();
+  job.press_to({2e-3});
+  const double frictionless = force_of(job);
+  job.protocol.contact = ContactMode::stick;
+  const double coarse = force_of(job, 0.04), fine = force_of(job, 0.01);  // 0.02 and 0.005 cm
+  EXPECT_GT(fine, 1.04 * frictionless);
+  EXPECT_NEAR(coarse / fine, 1.0, 1e-3);
+}
+
+TEST(ContinuumPress, IsHomogeneousInLengthAndStiffness) {
+  // Twice the lengths, thrice the stiffness: four times three the force.
+  ReferenceJob job = small_press();
+  job.protocol.contact = ContactMode::stick;
+  const double force = force_of(job);
+  job.rubber.youngs_modulus *= 3;
+  job.rubber.shear_modulus *= 3;
+  job.geometry = {0.02, 0.01, 0.03, 0.06};
+  job.press_to({2e-3});
+  EXPECT_NEAR(force_of(job) / (12 * force), 1.0, 1e-6);
+}
+
+TEST(ContinuumPress, DegreesConvergeToOneAnother) {
+  ReferenceJob job = small_press();
+  job.refinement = 0.7;
+  const double quadratic = force_of(job);
+  job.refinement = 0.4;
+  job.degree = 3;
+  EXPECT_NEAR(force_of(job) / quadratic, 1.0, 5e-3);
+  job.degree = 1;
+  const double coarse = force_of(job);
+  job.refinement = 0.8;
+  const double fine = force_of(job);
+  EXPECT_LT(std::abs(fine / quadratic - 1), 0.7 * std::abs(coarse / quadratic - 1));
+}
+
+/// Nearly incompressible rubber locks plain elements and not projected ones.
+TEST(ContinuumPress, ProjectionDoesNotLock) {
+  ReferenceJob job = small_press();
+  job.rubber.shear_modulus = job.rubber.youngs_modulus / (2 * 1.499);  // nu = 0.499
+  job.press_to({5e-4});
+  job.refinement = 0.6;
+  const double fine = force_of(job);
+  job.refinement = 0.3;
+  const double projected = force_of(job);
+  job.volumetric = fem_reference::Volumetric::pointwise;
+  const double plain = force_of(job);
+  EXPECT_LT(std::abs(projected / fine - 1), 0.05);
+  EXPECT_GT(plain / fine - 1, 2 * std::abs(projected / fine - 1));
+}
+
+/// Two linear solvers that share nothing but the matrix.
+TEST(ContinuumPress, MultigridAgreesWithTheFactorisation) {
+  for (const ContactMode mode :
+       {ContactMode::frictionless, ContactMode::stick, ContactMode::coulomb}) {
+    ReferenceJob job = small_press();
+    job.protocol.contact = mode;
+    job.press_to({5e-4});
+    job.solver = LinearSolver::condensed;
+    const PressState condensed = pressed(job, 0.05);
+    job.solver = LinearSolver::multigrid;
+    const PressState multigrid = pressed(job, 0.05);
+    EXPECT_EQ(condensed.cg_iterations, 0);
+    EXPECT_GT(multigrid.cg_iterations, 0);
+    EXPECT_EQ(condensed.active_nodes, multigrid.active_nodes);
+    EXPECT_NEAR(multigrid.sample.normal_force / condensed.sample.normal_force, 1.0, 1e-7);
+    EXPECT_NEAR(multigrid.energy / condensed.energy, 1.0, 1e-7);
+    EXPECT_NEAR(multigrid.sample.max_pressure / condensed.sample.max_pressure, 1.0, 1e-6);
+  }
+}
+
+TEST(ContinuumPress, WorksWithoutASleeve) {
+  ReferenceJob job = small_press();
+  const double with_sleeve = force_of(job);
+  job.geometry.sleeve_length = 0.0;
+  const double without = force_of(job);
+  EXPECT_LT(without, with_sleeve);
+  EXPECT_GT(without, 0.5 * with_sleeve);
+}
+
+TEST(ContinuumPress, RefinesWhereItMattersAndStartsAnew) {
+  ReferenceJob job = small_press();
+  Pressing pressing(job);
+  const auto& before = pressing.press.mesh();
+  const PressState coarse = pressing.press.advance(1e-3);
+  pressing.press.refine(0.7);
+  const auto after = pressing.press.mesh();
+  EXPECT_GT(after.cells, before.cells);
+  EXPECT_LT(after.cells, 8 * before.cells);
+  EXPECT_GT(double(after.unknowns), 1.5 * double(before.unknowns));
+  const PressState fine = pressing.press.advance(1e-3);
+  const double truth = 3.25628 * 9.80665e-3;
+  EXPECT_LT(std::abs(fine.sample.normal_force / truth - 1), 5e-3);
+  EXPECT_LT(fine.node_spacing, 0.7 * coarse.node_spacing);
+  EXPECT_NEAR(4 * pressing.press.bond_reaction().z() / fine.sample.normal_force, 1.0, 1e-8);
+}
+
+TEST(ContinuumPress, StopsOnRequest) {
+  Pressing pressing(small_press(), [] { return true; });
+  EXPECT_THROW(pressing.press.advance(1e-3), meshes::Interrupted);
+}
+
+TEST(ContinuumPress, RefusesAMeshOfNothing) {
+  EXPECT_THROW(fem_reference::ContinuumPress(small_press(), "no/such/file.msh"),
+               meshes::InvalidInput);
+}
+
+/// Edges of the mesh in y = 0: they surround the rubber, and the pole's has gone up by the press.
+TEST(ContinuumPress, SectionShowsTheDeformedMesh) {
+  ReferenceJob job = small_press();
+  Pressing pressing(job);
+  pressing.press.advance(1e-3);
+  const auto edges = pressing.press.section(*pressing.press.snapshot());
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank != 0) return;
+  double top = 0.0, deformed_top = 0.0, lowest = 0.0;
+  for (const auto& edge : edges)
+    for (std::size_t end = 0; end < 4; end += 2) {
+      EXPECT_GE(edge.undeformed[end], -1e-15);
+      top = std::max(top, edge.undeformed[end + 1]);
+      deformed_top = std::max(deformed_top, edge.deformed[end + 1]);
+      lowest = std::min(lowest, edge.undeformed[end + 1]);
+    }
+  EXPECT_NEAR(top, job.geometry.tip_radius, 1e-12);
+  EXPECT_NEAR(deformed_top, job.geometry.tip_radius - 1e-3, 1e-6);
+  EXPECT_NEAR(lowest, -job.geometry.sleeve_length, 1e-12);
+}
+
+TEST(ContinuumPress, FieldsAreWrittenForParaView) {
+  ReferenceJob job = small_press();
+  Pressing pressing(job);
+  pressing.press.advance(5e-4);
+  const auto file = pressing.folder() / "press_0001.vtu";
+  pressing.press.write_fields(*pressing.press.snapshot(), file);
+  MPI_Barrier(MPI_COMM_WORLD);
+  const std::string text = read_text(file);
+  for (const char* field : {"displacement", "stress", "von_mises_stress", "contact_pressure",
+                            "contact_shear", "contact_status"})
+    EXPECT_NE(text.find("Name=\"" + std::string(field) + "\""), std::string::npos) << field;
+  EXPECT_NE(text.find("</VTKFile>"), std::string::npos);
+}
+
+/// Hertz's pressure on nodes of a regular grid, whose outermost node misses the edge.
+TEST(ContactEdge, FindsTheEdgeBetweenNodes) {
+  for (const double edge : {0.985, 1.0, 1.013}) {
+    std::vector<ContactPoint> contact;
+    const double spacing = 0.03;
+    for (int i = 0; i * spacing < edge; ++i)
+      contact.push_back({i * spacing, std::sqrt(1 - std::pow(i * spacing / edge, 2))});
+    EXPECT_NEAR(fem_reference::contact_edge(contact, spacing, 4), edge, 1e-6);
+  }
+}
+
+/// Law A, frictionless, 0.3 cm: p/p(0) from axisymmetric finite elements (tests/verification).
+TEST(ContactEdge, IsMetUnderAPeakedPressure) {
+  constexpr std::array<double, 8> at = {0.0, 0.25, 0.5, 0.75, 0.9, 0.95, 0.98, 1.0};
+  constexpr std::array<double, 8> pressure = {1.0, 0.910, 0.706, 0.464, 0.286, 0.204, 0.135, 0.0};
+  constexpr double spacing = 0.0123;
+  std::vector<ContactPoint> contact;
+  for (std::size_t i = 0; double(i) * spacing < 1.0; ++i) {
+    const double r = double(i) * spacing;
+    const std::size_t k = std::size_t(std::upper_bound(at.begin(), at.end(), r) - at.begin());
+    const double share = (r * r - at[k - 1] * at[k - 1]) / (at[k] * at[k] - at[k - 1] * at[k - 1]);
+    contact.push_back({r, std::sqrt((1.0 - share) * std::pow(pressure[k - 1], 2) +
+                                    share * std::pow(pressure[k], 2))});
+  }
+  EXPECT_NEAR(fem_reference::contact_edge(contact, 3.0 * spacing, 4), 1.0, 0.008);
+}
+
+TEST(ContactEdge, IsNearTheOutermostNodeWhateverThePressure) {
+  EXPECT_EQ(fem_reference::contact_edge({}, 0.1, 4), 0.0);
+  EXPECT_EQ(fem_reference::contact_edge({{0.0, 1.0}}, 0.1, 4), 0.0);
+  std::vector<ContactPoint> rising, flat;
+  for (int i = 0; i <= 30; ++i) {
+    rising.push_back({0.01 * i, 1.0 + i});
+    flat.push_back({0.01 * i, 1.0});
+  }
+  for (const auto& contact : {rising, flat})
+    EXPECT_NEAR(fem_reference::contact_edge(contact, 0.01, 4), 0.3, 0.01 * (1 + 1e-9));
+}
+
+}  // namespace

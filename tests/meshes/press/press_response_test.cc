@@ -1,0 +1,203 @@
+#include "meshes/press/press_response.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "meshes/base/errors.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip::meshes;
+
+namespace {
+
+class PressResponseFile : public ::testing::Test {
+ protected:
+  std::filesystem::path file(const std::string& text) const {
+    write_text(folder_ / "response.csv", text);
+    return folder_ / "response.csv";
+  }
+  std::string refusal(const std::string& text) const {
+    try {
+      PressResponse::read_csv(file(text));
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  TemporaryFolder folder_;
+};
+
+PressResponse power_law(double factor, double exponent, int samples, double depth) {
+  PressResponse response;
+  for (int i = 1; i <= samples; ++i) {
+    PressSample sample;
+    sample.indentation = depth * i / samples;
+    sample.normal_force = factor * std::pow(sample.indentation, exponent);
+    response.append(sample);
+  }
+  return response;
+}
+
+TEST_F(PressResponseFile, ReadsBackExactlyWhatItWrote) {
+  PressResponse written;
+  written.append({.indentation = 1.0 / 3.0, .normal_force = 0.1, .torque_y = -1e-300});
+  written.append({.indentation = 2.0 / 3.0, .normal_force = 0.7, .time = 12.5});
+  written.write_csv(folder_ / "response.csv");
+  const PressResponse read = PressResponse::read_csv(folder_ / "response.csv");
+  ASSERT_EQ(read.samples().size(), 2u);
+  EXPECT_EQ(read.samples()[0].indentation, 1.0 / 3.0);
+  EXPECT_EQ(read.samples()[0].torque_y, -1e-300);
+  EXPECT_TRUE(std::isnan(read.samples()[0].time));
+  EXPECT_EQ(read.samples()[1].time, 12.5);
+}
+
+TEST_F(PressResponseFile, FirstLineNamesEveryColumnWithItsUnit) {
+  const std::string common =
+      "indentation [m],normal_force [N],lateral_force_x [N],lateral_force_y [N],"
+      "torque_x [N m],torque_y [N m],torque_z [N m],contact_radius [m],max_pressure [Pa],"
+      "force_error [N],time [s]";
+  PressResponse response;
+  for (const double lateral : {0.0, -1e-4}) {
+    response.append({.indentation = 1e-3, .normal_force = 1.0, .lateral_displacement = lateral});
+    response.write_csv(folder_ / "response.csv");
+    std::string line;
+    std::ifstream in(folder_ / "response.csv");
+    std::getline(in, line);
+    EXPECT_EQ(line, lateral == 0.0 ? common : common + ",lateral_displacement [m]");
+  }
+}
+
+TEST_F(PressResponseFile, ALateralMotionFollowsThePress) {
+  const PressResponse press = power_law(2.0, 1.5, 4, 2e-3);
+  PressResponse written;
+  for (PressSample sample : press.samples()) {
+    sample.lateral_displacement = 0.0;
+    written.append(sample);
+  }
+  for (const double lateral : {-1e-4, -2e-4})
+    written.append({.indentation = 2e-3, .normal_force = 9.0, .lateral_displacement = lateral});
+  written.write_csv(folder_ / "response.csv");
+  const PressResponse read = PressResponse::read_csv(folder_ / "response.csv");
+  ASSERT_EQ(read.pressing().size(), 4u);
+  ASSERT_EQ(read.sliding().size(), 2u);
+  EXPECT_EQ(read.sliding()[1].lateral_displacement, -2e-4);
+  EXPECT_EQ(read.depth(), 2e-3);
+  // The force against indentation is that of the press alone.
+  for (const double depth : {1e-4, 1.2e-3, 2e-3})
+    EXPECT_EQ(read.normal_force_at(depth), press.normal_force_at(depth));
+  EXPECT_TRUE(press.sliding().empty());
+  EXPECT_TRUE(PressResponse().pressing().empty());
+}
+
+TEST_F(PressResponseFile, StagesOfAProgramFollowTheFirstLoading) {
+  PressResponse written;
+  const double rows[][4] = {{1e-3, 1.0, 0.1, 1}, {2e-3, 3.0, 0.2, 1}, {2e-3, 2.5, 0.3, 2},
+                            {2e-3, 2.4, 0.4, 2}, {3e-3, 4.0, 0.5, 3}, {-1e-4, 0.0, 0.9, 4}};
+  for (const auto& [indentation, force, time, stage] : rows)
+    written.append(
+        {.indentation = indentation, .normal_force = force, .time = time, .stage = stage});
+  written.write_csv(folder_ / "response.csv");
+  const PressResponse read = PressResponse::read_csv(folder_ / "response.csv");
+  ASSERT_EQ(read.pressing().size(), 2u);
+  ASSERT_EQ(read.following().size(), 4u);
+  EXPECT_TRUE(read.sliding().empty());
+  EXPECT_EQ(read.following().back().stage, 4.0);
+  EXPECT_EQ(read.depth(), 2e-3) << "up to which the first loading tells forces";
+  EXPECT_EQ(read.deepest(), 3e-3);
+  EXPECT_EQ(read.normal_force_at(2e-3), 3.0);
+  EXPECT_THROW(read.normal_force_at(2.5e-3), std::out_of_range);
+  EXPECT_TRUE(power_law(2.0, 1.5, 4, 2e-3).following().empty());
+
+  const std::string titles = "indentation [m],normal_force [N],time [s],stage\n0.2,1,1,1\n";
+  EXPECT_NE(refusal(titles + "0.1,1,2,1\n").find("increase"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.2,1,1,2\n").find("times must increase"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,1,2,0\n").find("not decrease"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.3,1,2,\n").find("every row or none"), std::string::npos);
+}
+
+TEST_F(PressResponseFile, AcceptsColumnsInAnyOrderAndUnknownOnes) {
+  const auto response = PressResponse::read_csv(
+      file("comment [1],normal_force [N],indentation [m]\n7,2.5,0.001\r\n,3.5,0.002\n"));
+  ASSERT_EQ(response.samples().size(), 2u);
+  EXPECT_EQ(response.samples()[1].normal_force, 3.5);
+}
+
+TEST_F(PressResponseFile, RefusesDamagedFilesWithFileAndLine) {
+  const std::string titles = "indentation [m],normal_force [N]\n";
+  EXPECT_NE(refusal("depth,normal_force [N]\n").find("response.csv:1"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,1\n0.2\n").find("response.csv:3"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,one\n").find("response.csv:2, normal_force [N] = one"),
+            std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,nan\n").find("finite"), std::string::npos);
+  EXPECT_NE(refusal(titles + ",1\n").find("response.csv:2"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.2,1\n0.1,2\n").find("increase"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.2,1\n0.2,2\n").find("increase"), std::string::npos);
+  const std::string lateral =
+      "indentation [m],normal_force [N],lateral_displacement [m]\n0.2,1,0.1\n";
+  EXPECT_NE(refusal(lateral + "0.2,2,0.1\n").find("response.csv:3"), std::string::npos);
+  EXPECT_NE(refusal(lateral + "0.1,2,0.2\n").find("response.csv:3"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,1\n0.2,2.0").find("truncated"), std::string::npos);
+  EXPECT_NE(refusal("").find("empty"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,1e70\n").find("finite"), std::string::npos);
+  EXPECT_NE(refusal("indentation [m],indentation [m]\n").find("once"), std::string::npos);
+  EXPECT_THROW(PressResponse::read_csv(folder_ / "absent.csv"), InvalidInput);
+  EXPECT_THROW(PressResponse::read_csv(folder_.path()), InvalidInput);
+}
+
+TEST_F(PressResponseFile, AnUnwritableFolderIsNamed) {
+  try {
+    PressResponse().write_csv(folder_ / "absent" / "response.csv");
+    FAIL() << "wrote into a folder that does not exist";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("absent"), std::string::npos);
+  }
+}
+
+TEST(PressResponse, InterpolationPassesThroughSamplesAndOrigin) {
+  const PressResponse response = power_law(2.0, 1.5, 10, 3e-3);
+  EXPECT_EQ(response.normal_force_at(0.0), 0.0);
+  for (const PressSample& sample : response.samples()) {
+    EXPECT_NEAR(response.normal_force_at(sample.indentation), sample.normal_force, 1e-15);
+  }
+  EXPECT_THROW(response.normal_force_at(3.1e-3), std::out_of_range);
+  EXPECT_THROW(response.normal_force_at(-1e-9), std::out_of_range);
+}
+
+TEST(PressResponse, InterpolationConvergesToASmoothForceLaw) {
+  const auto error = [](int samples) {
+    const PressResponse response = power_law(1.0, 1.5, samples, 1.0);
+    double worst = 0.0;
+    for (double at = 0.3; at < 1.0; at += 0.0137) {
+      worst = std::max(worst, std::abs(response.normal_force_at(at) - std::pow(at, 1.5)));
+    }
+    return worst;
+  };
+  EXPECT_LT(error(10), 2e-3);
+  EXPECT_GT(std::log2(error(10) / error(20)), 1.8);  // at least second order where monotone
+}
+
+TEST(PressResponse, InterpolationNeverOvershootsAStep) {
+  PressResponse response;
+  for (const auto& [at, force] : {std::pair{1.0, 0.0}, {2.0, 0.01}, {3.0, 5.0}, {4.0, 5.01}}) {
+    response.append({.indentation = at, .normal_force = force});
+  }
+  double previous = 0.0;
+  for (double at = 0.0; at <= 4.0; at += 0.01) {
+    const double force = response.normal_force_at(at);
+    EXPECT_GE(force, previous - 1e-14) << at;
+    previous = force;
+  }
+}
+
+TEST(PressResponse, ErrorNormsOfAConstantFactorAreThatFactor) {
+  const PressResponse reference = power_law(2.0, 1.5, 20, 3e-3);
+  const PressResponse response = power_law(2.2, 1.5, 20, 3e-3);
+  EXPECT_NEAR(relative_force_error(response, reference, 1.1e-3), 0.1, 1e-12);
+  EXPECT_NEAR(relative_l2_force_error(response, reference, 1e-4, 3e-3), 0.1, 1e-12);
+  EXPECT_EQ(relative_l2_force_error(reference, reference, 0.0, 3e-3), 0.0);
+}
+
+}  // namespace

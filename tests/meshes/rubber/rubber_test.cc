@@ -1,0 +1,61 @@
+#include "meshes/rubber/rubber.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace fingertip::meshes;
+
+namespace {
+
+constexpr double gf_per_cm2 = 98.0665;  // [Pa], by definition of standard gravity
+
+TEST(Rubber, DefaultIsThePapersRubber) {
+  const Rubber rubber;
+  EXPECT_NEAR(rubber.youngs_modulus / gf_per_cm2, 40.0, 1e-12);
+  EXPECT_NEAR(rubber.shear_modulus / gf_per_cm2, 14.0, 1e-12);
+  EXPECT_NEAR(rubber.poissons_ratio(), 3.0 / 7.0, 1e-14);
+  EXPECT_NEAR(rubber.lame_lambda() / gf_per_cm2, 84.0, 1e-10);
+  EXPECT_NEAR(rubber.bulk_modulus() / gf_per_cm2, 280.0 / 3.0, 1e-10);
+}
+
+TEST(Rubber, ModuliAreConsistentForEveryAdmissiblePoissonsRatio) {
+  for (const double nu : {-0.9, -0.3, 0.0, 0.25, 0.4286, 0.499}) {
+    Rubber rubber;
+    rubber.shear_modulus = rubber.youngs_modulus / (2.0 * (1.0 + nu));
+    const double e = rubber.youngs_modulus;
+    EXPECT_TRUE(rubber.violations().empty()) << nu;
+    EXPECT_NEAR(rubber.poissons_ratio(), nu, 1e-12);
+    EXPECT_NEAR(rubber.bulk_modulus() * 3.0 * (1.0 - 2.0 * nu) / e, 1.0, 1e-10) << nu;
+    EXPECT_NEAR(rubber.longitudinal_modulus() * (1.0 + nu) * (1.0 - 2.0 * nu) / (e * (1.0 - nu)),
+                1.0, 1e-10);
+    EXPECT_NEAR(std::pow(rubber.shear_wave_speed(), 2) * rubber.density, rubber.shear_modulus,
+                1e-9);
+  }
+}
+
+TEST(Rubber, RefusesShearModulusAtOrBelowAThirdOfYoungs) {
+  for (const double ratio : {0.2, 1.0 / 3.0}) {
+    Rubber rubber;
+    rubber.shear_modulus = ratio * rubber.youngs_modulus;
+    ASSERT_EQ(rubber.violations().size(), 1u);
+    EXPECT_EQ(rubber.violations()[0].key, "rubber.shear_modulus");
+    EXPECT_NE(rubber.violations()[0].rule.find("E/3"), std::string::npos);
+  }
+}
+
+TEST(Rubber, RefusesAPoissonsRatioThatRoundsToMinusOne) {
+  EXPECT_FALSE((Rubber{1e-12, 1e4, 500.0, 0.0, {}, {}}.violations().empty()));
+  const Rubber odd{1e-3, 1e4, 500.0, 0.0, {}, {}};  // nu = -1 + 5e-8
+  EXPECT_TRUE(odd.violations().empty());
+  EXPECT_GT(odd.poissons_ratio(), -1.0);
+}
+
+TEST(Rubber, RefusesWhatIsNotANumber) {
+  Rubber rubber;
+  rubber.density = std::nan("");
+  rubber.retardation_time = -1.0;
+  EXPECT_EQ(rubber.violations().size(), 2u);
+}
+
+}  // namespace

@@ -1,0 +1,501 @@
+#include "studies/presses/press_setup.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "calibration/material/material.h"
+#include "calibration/material/moduli.h"
+#include "lattice/press/static_press.h"
+#include "studies/config/documents.h"
+#include "studies/fits/jobs/moduli_job.h"
+#include "studies/presses/modes_job.h"
+#include "studies/presses/press_job.h"
+#include "studies/presses/reference_job.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip::studies;
+namespace lattice = fingertip::lattice;
+
+namespace {
+
+lattice::PressSetup setup_of(std::vector<std::string> sets) {
+  return press_setup(load_config({{}, std::move(sets), {}}));
+}
+
+fingertip::calibration::ElasticModuli moduli_of(const lattice::PressSetup& setup) {
+  return fingertip::calibration::homogenised_moduli(setup.lattice.constants, setup.lattice.spacing);
+}
+
+}  // namespace
+
+TEST(PressSetup, AutoTakesEachModelsOwnConstants) {
+  const auto published = setup_of({"lattice.model=published"});
+  EXPECT_NEAR(published.lattice.constants.k1, 3922.66 * published.lattice.spacing, 1e-12);
+  EXPECT_EQ(published.lattice.kinematics, lattice::Kinematics::finite);
+  const auto hookean = moduli_of(setup_of({"lattice.model=hookean"}));
+  EXPECT_NEAR(hookean.youngs_modulus_100, 3922.66, 1e-8);
+  EXPECT_NEAR(hookean.poissons_ratio_100, 0.428571428571, 1e-10);
+  const auto central = moduli_of(setup_of({"lattice.model=central"}));
+  EXPECT_NEAR(central.youngs_modulus_100, 3922.66, 1e-5);
+  EXPECT_NEAR(central.shear_modulus, 1372.931, 1e-5);
+}
+
+/// A lip of 0.05 mm would take a lattice of billions of masses, which nobody asks for.
+TEST(PressSetup, ASpacingThatNobodyGaveIsCheckedWhereALatticeIsBuilt) {
+  const TemporaryFolder folder;
+  write_text(folder / "lip.csv",
+             "r [mm],z [mm],surface,curve\n0,0,bond,\n9,0,free,\n13,0,contact,\n"
+             "13,0.05,contact,\n10,0.05,contact,\n10,8,contact,arc 0 8\n0,18,axis,\n");
+  std::vector<std::string> sets = {"geometry.shape=profile",
+                                   "geometry.profile=" + (folder / "lip.csv").string()};
+  const LoadedConfig lip = load_config({{}, sets, {}});
+  EXPECT_NO_THROW(check_all(lip));
+  EXPECT_EQ(beyond_the_lattice(lip).size(), 1U);
+  try {
+    press_setup(lip);
+    ADD_FAILURE() << "billions of masses";
+  } catch (const ConfigError& error) {
+    for (const char* part : {"20 million", "0.05 mm", "tip_radius/", "leave it out", "reference"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+  for (const char* given : {"lattice.spacing=tip_radius/12", "lattice.spacing=0.0125 mm"}) {
+    sets.resize(2);
+    sets.emplace_back(given);
+    EXPECT_THROW(check_all(load_config({{}, sets, {}})), ConfigError) << given;
+  }
+}
+
+/// A pad of 2 mm radius on a rod as thin would sway under the controller, and rubber around a
+/// needle weighs more than it.
+TEST(PressSetup, ARodThatNobodyGaveIsHeavyEnough) {
+  const TemporaryFolder folder;
+  write_text(
+      folder / "pad.csv",
+      "r [mm],z [mm],surface,curve\n3.2,0,bond,\n3.2,7.96,contact,\n0,7.96,axis,\n0,0,bond,\n");
+  for (const std::vector<std::string>& sets :
+       {std::vector<std::string>{"geometry.shape=profile",
+                                 "geometry.profile=" + (folder / "pad.csv").string()},
+        {"geometry.rod_radius=1 mm", "lattice.spacing=tip_radius/10"}}) {
+    const LoadedConfig loaded = load_config({{}, sets, {}});
+    EXPECT_THROW(press_setup(loaded), ConfigError);
+    const LoadedConfig complete = with_material(loaded, LatticeUse::press);
+    const auto setup = press_setup(complete);
+    EXPECT_GT(setup.rod.density, 2700.0);
+    EXPECT_EQ(complete.notes.size(), 1U);
+    write_text(folder / "again.toml", parameters_toml(complete, "again"));
+    EXPECT_EQ(load_config({folder / "again.toml", {}, {}}).config.press.rod.density,
+              setup.rod.density);
+  }
+}
+
+TEST(PressSetup, CalibratedHookeanAgreesWithItsClosedForm) {
+  const auto fitted = moduli_of(setup_of({"lattice.constants=calibrated"}));
+  const auto closed = moduli_of(setup_of({"lattice.constants=rule"}));
+  EXPECT_NEAR(fitted.c11 / closed.c11, 1.0, 1e-8);
+  EXPECT_NEAR(fitted.c12 / closed.c12, 1.0, 1e-8);
+  EXPECT_NEAR(fitted.c44 / closed.c44, 1.0, 1e-8);
+}
+
+TEST(PressSetup, TakesConstantsFromAMaterialFileAtAnySpacing) {
+  const TemporaryFolder folder;
+  const LoadedConfig loaded = load_config({{}, {"lattice.model=central"}, {}});
+  const Job job =
+      moduli_job(loaded.config.press.rubber, fit_options(loaded, lattice::ModelKind::central));
+  const JobContext context{[](double, const std::string&) { return true; },
+                           [](const std::string&) {}, 1};
+  job.run(folder.path(), context);
+  const std::string constants = "lattice.constants=" + (folder / "material.toml").string();
+  const auto finer =
+      setup_of({"lattice.model=central", "lattice.spacing=tip_radius/17", constants});
+  EXPECT_NEAR(moduli_of(finer).youngs_modulus_100, 3922.66, 1e-5);
+  EXPECT_THROW(setup_of({"lattice.model=hookean", constants}), ConfigError) << "another model";
+  EXPECT_THROW(setup_of({"lattice.constants=" + (folder / "absent.toml").string()}), ConfigError);
+}
+
+namespace {
+
+namespace calibration = fingertip::calibration;
+
+/// As a fit to curves leaves it: another rubber than the default one, factors on the ties.
+calibration::Material fitted(lattice::ModelKind model) {
+  calibration::Material m;
+  m.model = model;
+  m.spacing = 1e-2 / 8.0;
+  m.kinematics = default_kinematics(model);
+  m.rubber = {5000.0, 1800.0, 900.0, 1.0 / 3.0e3, {}, {}};
+  m.constants = lattice::hookean_constants(m.rubber, m.spacing);
+  m.ligament_stiffness = 1.25;
+  m.contact_stiffness = 0.7;
+  m.validity.largest_indentation = 1e-3;
+  m.validity.thickness = 5e-3;
+  m.validity.smallest_spacing = m.validity.largest_spacing = m.spacing;
+  m.statement = "for tests";
+  return m;
+}
+
+/// Sets that use it where it was fitted.
+std::vector<std::string> inside(const TemporaryFolder& folder, const calibration::Material& m) {
+  calibration::write_material_toml(m, folder / "material.toml");
+  return {"lattice.constants=" + (folder / "material.toml").string(), "press.mode=static",
+          "lattice.model=" + std::string(lattice::name(m.model)), "lattice.spacing=tip_radius/8",
+          "press.depth=0.1 cm"};
+}
+
+std::vector<std::string> with(std::vector<std::string> sets, const std::string& more) {
+  sets.push_back(more);
+  return sets;
+}
+
+std::vector<std::string> notes(const std::vector<std::string>& sets,
+                               LatticeUse use = LatticeUse::press) {
+  return with_material(load_config({{}, sets, {}}), use).notes;
+}
+
+}  // namespace
+
+TEST(MaterialOfAPress, StiffnessTiesAndRubberAreTheFiles) {
+  const TemporaryFolder folder;
+  const calibration::Material m = fitted(lattice::ModelKind::hookean);
+  const auto sets = inside(folder, m);
+  const lattice::PressSetup press = setup_of(sets);
+  EXPECT_EQ(press.lattice.constants.k1, m.constants.k1);
+  EXPECT_EQ(press.lattice.constants.kappa, m.constants.kappa);
+  EXPECT_EQ(press.lattice.ligament_stiffness, 1.25);
+  EXPECT_EQ(press.lattice.contact_stiffness, 0.7);
+  EXPECT_EQ(press.rubber.youngs_modulus, 5000.0);
+  EXPECT_EQ(press.rubber.density, 900.0);
+  EXPECT_NEAR(press.rubber.retardation_time, 1.0 / 3.0e3, 1e-17);
+  EXPECT_TRUE(notes(sets).empty()) << notes(sets).front();
+}
+
+TEST(MaterialOfAPress, ANetworkTakesItsModuliFromTheFile) {
+  const TemporaryFolder folder;
+  const auto sets = inside(folder, fitted(lattice::ModelKind::network));
+  const lattice::PressSetup press = setup_of(sets);
+  EXPECT_EQ(press.rubber.shear_modulus, 1800.0);
+  EXPECT_EQ(press.rubber.youngs_modulus, 5000.0);
+  // The forces are those of a press whose rubber is given by hand.
+  const auto force = [](const lattice::PressSetup& setup) {
+    return lattice::run_static_press(setup).response.samples().back().normal_force;
+  };
+  const double by_hand =
+      force(setup_of({"press.mode=static", "lattice.model=network", "lattice.spacing=tip_radius/8",
+                      "press.depth=0.1 cm", "press.samples=[\"0.1 cm\"]",
+                      "rubber.youngs_modulus=5000 Pa", "rubber.shear_modulus=1800 Pa",
+                      "lattice.ligament_stiffness=1.25", "lattice.contact_stiffness=0.7"}));
+  EXPECT_NEAR(force(setup_of(with(sets, "press.samples=[\"0.1 cm\"]"))) / by_hand, 1.0, 1e-12);
+}
+
+TEST(MaterialOfAPress, WhatTheUserSaysIsKeptAndWarnedOf) {
+  const TemporaryFolder folder;
+  const auto sets = inside(folder, fitted(lattice::ModelKind::hookean));
+  const struct {
+    const char* set;
+    const char* says;
+  } cases[] = {{"rubber.density=1 g/cm^3", "density is 1000"},
+               {"rubber.retardation_time=1 ms", "retardation time is 0.001"},
+               {"lattice.ligament_stiffness=2", "bond is 2"},
+               {"lattice.contact_stiffness=1", "contact is 1"},
+               {"rubber.youngs_modulus=3900 Pa", "have no effect"},
+               {"press.depth=0.2 cm", "20 % only"},
+               {"lattice.spacing=tip_radius/10", "calibrate at this spacing"},
+               {"lattice.kinematics=finite", "used at finite strain"}};
+  for (const auto& expected : cases) {
+    const auto found = notes(with(sets, expected.set));
+    ASSERT_EQ(found.size(), 1U) << expected.set;
+    EXPECT_EQ(found[0].find("material.toml: "), 0U) << found[0];
+    EXPECT_NE(found[0].find(expected.says), std::string::npos) << found[0];
+  }
+  EXPECT_TRUE(notes(with(sets, "press.depth=0.2 cm"), LatticeUse::modes).empty());
+  EXPECT_EQ(notes(with(sets, "lattice.spacing=tip_radius/10"), LatticeUse::modes).size(), 1U);
+  const lattice::PressSetup press = setup_of(with(sets, "rubber.density=1 g/cm^3"));
+  EXPECT_EQ(press.rubber.density, 1000.0);
+  EXPECT_EQ(setup_of(with(sets, "rubber.youngs_modulus=3900 Pa")).rubber.youngs_modulus, 5000.0);
+  EXPECT_TRUE(notes({"press.mode=static"}).empty()) << "no file, nothing to warn of";
+}
+
+/// Exports and `reference` press the continuum of the same rubber, whatever moduli stand beside it.
+TEST(MaterialOfAPress, IsThatOfTheContinuumToo) {
+  const TemporaryFolder folder;
+  const auto sets = inside(folder, fitted(lattice::ModelKind::hookean));
+  for (const char* more : {"rubber.poissons_ratio=0.45", "rubber.youngs_modulus=3900 Pa",
+                           "rubber.density=1 g/cm^3", "press.depth=0.1 cm"}) {
+    const Config config =
+        with_material(load_config({{}, with(sets, more), {}}), LatticeUse::modes).config;
+    for (const fingertip::meshes::Rubber& rubber : {config.press.rubber, config.reference.rubber}) {
+      EXPECT_EQ(rubber.youngs_modulus, 5000.0) << more;
+      EXPECT_EQ(rubber.shear_modulus, 1800.0) << more;
+      EXPECT_EQ(rubber.density, config.press.rubber.density) << more;
+    }
+  }
+}
+
+TEST(MaterialOfAPress, IsReadOnce) {
+  const TemporaryFolder folder;
+  const LoadedConfig loaded =
+      load_config({{}, inside(folder, fitted(lattice::ModelKind::hookean)), {}});
+  check_all(loaded);
+  std::filesystem::remove(folder / "material.toml");
+  EXPECT_NO_THROW(press_setup(with_material(loaded, LatticeUse::press)));
+}
+
+TEST(MaterialOfAPress, ParametersOfARunMakeTheSamePress) {
+  const TemporaryFolder folder;
+  const auto sets = inside(folder, fitted(lattice::ModelKind::hookean));
+  for (const char* more : {"press.depth=0.2 cm", "rubber.shear_modulus=30 gf/cm^2"}) {
+    const LoadedConfig loaded =
+        with_material(load_config({{}, with(sets, more), {}}), LatticeUse::press);
+    write_text(folder / "parameters.toml", parameters_toml(loaded, "test"));
+    const LoadedConfig again =
+        with_material(load_config({folder / "parameters.toml", {}, {}}), LatticeUse::press);
+    EXPECT_EQ(press_job(press_setup(again)).key(), press_job(press_setup(loaded)).key());
+    EXPECT_EQ(again.notes, loaded.notes);
+    EXPECT_EQ(loaded.entries.at("rubber.density").place, (folder / "material.toml").string());
+  }
+}
+
+TEST(PressSetup, ContactStiffnessScalesTheTiesToThePlaneAlone) {
+  const auto body_of = [](const std::string& factor) {
+    const auto setup = setup_of({"press.mode=static", "lattice.spacing=tip_radius/6",
+                                 "lattice.contact_stiffness=" + factor});
+    return lattice::static_body(setup, 4);
+  };
+  const lattice::LatticeBody soft = body_of("1.0"), three = body_of("3.0");
+  ASSERT_EQ(soft.outer.size(), three.outer.size());
+  ASSERT_EQ(soft.bond.size(), three.bond.size());
+  for (std::size_t i = 0; i < soft.outer.size(); ++i)
+    EXPECT_NEAR(three.outer[i].stiffness / soft.outer[i].stiffness, 3.0, 1e-12);
+  for (std::size_t i = 0; i < soft.bond.size(); ++i)
+    EXPECT_EQ(three.bond[i].stiffness, soft.bond[i].stiffness);
+  const auto key = [](const std::string& factor) {
+    return press_job(setup_of({"press.mode=static", "lattice.contact_stiffness=" + factor})).key();
+  };
+  EXPECT_NE(key("2.0"), key("1.0"));
+  // Where there are no ties the factor would be without effect.
+  EXPECT_THROW(setup_of({"lattice.contact_stiffness=1e7"}), ConfigError);
+  EXPECT_THROW(
+      setup_of({"press.mode=static", "lattice.model=published", "lattice.contact_stiffness=2.0"}),
+      ConfigError);
+  EXPECT_THROW(setup_of({"press.mode=static", "lattice.contact_stiffness=0.0"}), ConfigError);
+}
+
+TEST(PressSetup, RefusesWhatTheLatticeCannotDo) {
+  EXPECT_THROW(setup_of({"lattice.spacing=0.26 cm"}), ConfigError);
+  EXPECT_NO_THROW(setup_of({"lattice.spacing=0.25 cm"}));
+  EXPECT_THROW(setup_of({"lattice.spacing=1 um"}), ConfigError);
+  EXPECT_THROW(setup_of({"lattice.model=published", "lattice.constants=calibrated"}), ConfigError);
+}
+
+namespace {
+
+/// What `check` says to a configuration with these settings; empty when it is fine.
+std::string refusal(void (*check)(const LoadedConfig&), std::vector<std::string> sets) {
+  try {
+    check(load_config({{}, std::move(sets), {}}));
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST(Checks, WhatAPressCannotDoIsRefusedToTheValidationAlone) {
+  for (const char* set :
+       {"press.tilt=5 deg", "press.lateral=1 mm",
+        "lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]", "lattice.contact_stiffness=2"}) {
+    EXPECT_EQ(refusal(check_all, {set}), "") << set;
+    EXPECT_NO_THROW(continuum_setup(load_config({{}, {set}, {}}))) << set;
+    EXPECT_EQ(refusal(check_validation, {set}).find("--set " + std::string(set)), 0U) << set;
+    EXPECT_THROW(setup_of({set, "lattice.model=published"}), ConfigError) << set;
+  }
+  const std::string coulomb = "press.contact=coulomb";
+  EXPECT_EQ(refusal(check_validation, {coulomb}), "");
+  EXPECT_NO_THROW(setup_of({coulomb, "lattice.model=published"}));
+  EXPECT_THROW(setup_of({coulomb, "press.mode=static"}), ConfigError);
+  EXPECT_EQ(refusal(check_all, {coulomb, "press.mode=static"}), "");
+  EXPECT_EQ(refusal(check_validation, {}), "");
+  EXPECT_EQ(refusal(check_validation, {"reference.mode=transient"}), "");
+  EXPECT_NE(refusal(check_validation, {"reference.mode=modes"}), "");
+}
+
+TEST(Checks, FiniteStrainNeedsAPositivePoissonsRatioAndSaysWhy) {
+  const std::string negative = "rubber.poissons_ratio=-0.2";
+  EXPECT_EQ(refusal(check_all, {negative}), "");
+  EXPECT_EQ(refusal(check_all, {"reference.strain=finite"}), "");
+  const std::string text = refusal(check_all, {"reference.strain=finite", negative});
+  for (const char* part :
+       {"--set reference.strain=finite", "nu >= 0", "--set rubber.poissons_ratio=-0.2"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+  }
+}
+
+TEST(Checks, ATransientPressHasItsLimits) {
+  for (const char* set : {"reference.strain=finite", "press.contact=coulomb", "press.tilt=5 deg",
+                          "press.lateral=1 mm"}) {
+    const std::string text = refusal(check_all, {"reference.mode=transient", set});
+    EXPECT_EQ(text.find("--set reference.mode=transient"), 0U) << text;
+    EXPECT_NE(text.find("--set " + std::string(set)), std::string::npos) << text;
+  }
+}
+
+TEST(Checks, WhatALatticeCanDoAtRestOrMoving) {
+  const auto broken = [](std::vector<std::string> sets) {
+    try {
+      press_setup(load_config({{}, std::move(sets), {}}));
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const char* set : {"lattice.model=network", "press.tilt=5 deg", "press.lateral=1 mm",
+                          "lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]"}) {
+    EXPECT_EQ(broken({set, "press.mode=static"}), "") << set;
+    EXPECT_EQ(broken({set}), "") << set;
+  }
+  for (const char* set : {"press.tilt=5 deg", "press.lateral=1 mm"}) {
+    EXPECT_EQ(broken({set, "lattice.model=published", "press.mode=static"}), "") << set;
+    const std::string text = broken({set, "lattice.model=published"});
+    EXPECT_NE(text.find("press.mode = static"), std::string::npos) << text;
+  }
+  const std::string after = "press.lateral_path=after", lateral = "press.lateral=1 mm";
+  EXPECT_EQ(broken({after, lateral, "press.mode=static"}), "");
+  EXPECT_EQ(broken({after, lateral}).find("--set press.lateral_path=after"), 0U)
+      << broken({after, lateral});
+  EXPECT_EQ(refusal(check_all, {after, lateral}), "") << "the continuum goes that way";
+  EXPECT_EQ(broken({"run.integrator=explicit-euler", "lattice.model=published"}), "");
+  EXPECT_NE(broken({"run.integrator=explicit-euler"}).find("symplectic-euler"), std::string::npos);
+  EXPECT_NE(broken({"press.contact=coulomb", "press.mode=static"}), "");
+  // What concerns the lattice alone keeps no other verb from its work.
+  EXPECT_EQ(refusal(check_all, {"lattice.model=network"}), "");
+  EXPECT_EQ(refusal(check_all, {"lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]"}), "");
+  EXPECT_NE(broken({"press.mode=static", "lattice.model=published",
+                    "lattice.rotation=[\"1 deg\", \"0 deg\", \"0 deg\"]"})
+                .find("aligned with the rod"),
+            std::string::npos);
+  // nu = 0.05: kappa = lambda - G < 0.
+  EXPECT_NE(broken({"lattice.kinematics=finite", "rubber.poissons_ratio=0.05"}).find("kappa >= 0"),
+            std::string::npos);
+  EXPECT_NE(broken({"press.mode=static", "lattice.model=network", "lattice.constants=calibrated"}),
+            "");
+  // nu = E/(2G) - 1 = -0.2: the network's energy falls without bound, linearised it does not.
+  const std::vector<std::string> negative = {"press.mode=static", "lattice.model=network",
+                                             "rubber.poissons_ratio=-0.2"};
+  EXPECT_NE(broken(negative).find("Poisson's ratio >= 0"), std::string::npos) << broken(negative);
+  EXPECT_EQ(broken({negative[0], negative[1], negative[2], "lattice.kinematics=small"}), "");
+}
+
+TEST(Jobs, StaticPressesDependOnWhatIsStatic) {
+  const auto key = [](std::vector<std::string> sets) {
+    sets.emplace_back("press.mode=static");
+    return press_job(setup_of(std::move(sets))).key();
+  };
+  EXPECT_EQ(key({}), key({"run.units=paper"}));
+  EXPECT_EQ(key({}), key({"press.speed=2 cm/s"}));
+  EXPECT_EQ(key({}), key({"rod.density=2 g/cm^3"}));
+  for (const char* matters : {"press.tilt=1 deg", "press.lateral=1 mm", "lattice.model=network",
+                              "lattice.ligament_stiffness=2", "lattice.kinematics=finite",
+                              "lattice.offset=[0.0, 0.0, 0.5]", "press.contact=frictionless",
+                              "press.samples=[\"0.1 cm\", \"0.3 cm\"]",
+                              "lattice.rotation=[\"1 deg\", \"0 deg\", \"0 deg\"]"}) {
+    EXPECT_NE(key({}), key({matters})) << matters;
+  }
+}
+
+TEST(Jobs, TheLateralPathMattersWhereThereIsLateralMotion) {
+  const std::string after = "press.lateral_path=after", lateral = "press.lateral=1 mm",
+                    single_sample = "press.lateral_samples=1";
+  const auto differ = [](const auto& key) {
+    const auto [still, path, diagonal, moved, end, idle] = key;
+    EXPECT_EQ(still, path);
+    EXPECT_EQ(diagonal, idle);
+    EXPECT_NE(diagonal, moved);
+    EXPECT_NE(moved, end);
+  };
+  const auto keys = [&](const auto& key) {
+    return std::array<std::string, 6>{key({}),
+                                      key({after}),
+                                      key({lateral}),
+                                      key({after, lateral}),
+                                      key({after, lateral, single_sample}),
+                                      key({lateral, single_sample})};
+  };
+  differ(keys([](std::vector<std::string> sets) {
+    sets.emplace_back("press.mode=static");
+    return press_job(setup_of(std::move(sets))).key();
+  }));
+  differ(keys([](std::vector<std::string> sets) {
+    return reference_job(continuum_setup(load_config({{}, std::move(sets), {}}))).key();
+  }));
+}
+
+TEST(Jobs, ModesDependOnTheLatticeAndNotOnThePress) {
+  const auto key = [](std::vector<std::string> sets) {
+    sets.emplace_back("press.mode=static");
+    return modes_job(setup_of(std::move(sets)), 10).key();
+  };
+  EXPECT_EQ(key({}), key({"press.depth=0.1 cm"}));
+  EXPECT_EQ(key({}), key({"press.contact=frictionless"}));
+  for (const char* matters : {"rubber.density=1 g/cm^3", "lattice.spacing=0.1 cm",
+                              "lattice.ligament_stiffness=2", "rubber.shear_modulus=15 gf/cm^2"}) {
+    EXPECT_NE(key({}), key({matters})) << matters;
+  }
+  EXPECT_NE(key({}), modes_job(setup_of({"press.mode=static"}), 11).key());
+}
+
+TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
+  const auto key = [](std::vector<std::string> sets) {
+    return press_job(setup_of(std::move(sets))).key();
+  };
+  EXPECT_EQ(key({}), key({"run.threads=1"}));
+  EXPECT_EQ(key({}), key({"rubber.youngs_modulus=3922.66 Pa", "rubber.shear_modulus=1372.931 Pa"}));
+  EXPECT_EQ(key({}), key({"lattice.constants=rule"}));
+  EXPECT_EQ(key({}), key({"reference.degree=1"}));
+  EXPECT_NE(key({}), key({"press.speed=2 cm/s"}));
+  EXPECT_EQ(key({}), key({"run.units=paper"}));
+  EXPECT_EQ(key({}), key({"press.friction=0.1"})) << "stick has no coefficient";
+  EXPECT_NE(key({"press.contact=coulomb"}), key({"press.contact=coulomb", "press.friction=0.1"}));
+  EXPECT_NE(key({}), key({"rod.density=2 g/cm^3"}));
+  // A whole number of steps makes a period, whatever moves the rod.
+  EXPECT_NE(key({"press.mode=quasi-static"}),
+            key({"press.mode=quasi-static", "controller.period=2 ms"}));
+  EXPECT_EQ(key({"press.mode=quasi-static"}),
+            key({"press.mode=quasi-static", "controller.natural_frequency=50 Hz"}));
+  const auto continuum = [](std::vector<std::string> sets) {
+    return reference_job(continuum_setup(load_config({{}, std::move(sets), {}}))).key();
+  };
+  EXPECT_EQ(continuum({}), continuum({"rubber.density=1 g/cm^3"}));
+  EXPECT_EQ(continuum({}), continuum({"lattice.spacing=0.2 cm"}));
+  EXPECT_NE(continuum({}), continuum({"press.contact=frictionless"}));
+  EXPECT_NE(continuum({}), continuum({"reference.refinement=1.5"}));
+  for (const char* matters :
+       {"reference.strain=finite", "reference.tolerance=0.01", "reference.max_unknowns=1e5",
+        "reference.volumetric=pointwise", "reference.solver_tolerance=1e-9", "press.tilt=1 deg",
+        "press.lateral=1 mm", "press.contact=coulomb", "reference.mode=transient"}) {
+    EXPECT_NE(continuum({}), continuum({matters})) << matters;
+  }
+  EXPECT_EQ(continuum({}), continuum({"reference.law=B"})) << "small strain has no law";
+  EXPECT_EQ(continuum({}), continuum({"press.friction=0.1"})) << "stick has no coefficient";
+  EXPECT_EQ(continuum({}), continuum({"press.speed=9 cm/s"}));
+  const std::string coulomb = "press.contact=coulomb", transient = "reference.mode=transient",
+                    finite = "reference.strain=finite", modes = "reference.mode=modes";
+  EXPECT_NE(continuum({coulomb}), continuum({coulomb, "press.friction=0.1"}));
+  EXPECT_NE(continuum({finite}), continuum({finite, "reference.law=B"}));
+  EXPECT_NE(continuum({transient}), continuum({transient, "press.speed=9 cm/s"}));
+  EXPECT_NE(continuum({transient}), continuum({transient, "rubber.density=1 g/cm^3"}));
+  EXPECT_NE(continuum({modes}), continuum({modes, "rubber.density=1 g/cm^3"}));
+  EXPECT_NE(continuum({modes}), continuum({modes, "reference.modes=3"}));
+  EXPECT_EQ(continuum({modes}), continuum({modes, "press.depth=0.1 cm"}));
+}
+
+TEST(Jobs, TheContinuumsOwnVerificationIsAJob) {
+  const Job job = verification_job();
+  EXPECT_EQ(job.kind, "verification");
+  EXPECT_TRUE(job.resumable);
+  EXPECT_EQ(job.inputs["analysis"], "verification");
+  EXPECT_FALSE(job.inputs.contains("samples"));
+  fingertip::fem_reference::ReferenceJob reference;
+  reference.analysis = fingertip::fem_reference::Analysis::verification;
+  EXPECT_TRUE(reference.violations().empty()) << "fingertip-fem would refuse it";
+}
