@@ -46,8 +46,6 @@ constexpr Verb verbs[] = {
     {"sweep", "run a verb for all combinations of values, whole or in shards", "VERB",
      "press (default), modes, reference or grasp", everything},
     {"export", "write the finger for other programs", "", "", everything},
-    {"import", "take back what LAMMPS made of it: table, deviation, time, frames", "RUN",
-     "folder of an export", 0U},
     {"check", "check a configuration file", "FILE", "the file", config_options},
     {"shape", "check the shape of a finger, tell its measures, draw its section", "FILE",
      "meridians (.csv: r [mm],z [mm],surface,curve), solids (.stl, .step, .brep; --set "
@@ -142,12 +140,6 @@ void add_shape(CLI::App& sub, CommandLine& line) {
       ->type_name("FILE");
 }
 
-void add_import(CLI::App& sub, CommandLine& line) {
-  sub.add_flag("--compare", line.compare, "march the lattice ourselves and tell the deviation");
-  sub.add_flag("--frames", line.frames, "write frames/ for ParaView");
-  sub.add_option("--threads", line.config.threads, "threads to use; 0: all cores")->type_name("N");
-}
-
 void add_bench(CLI::App& sub, CommandLine& line) {
   sub.add_option("--json", line.json, "write what was measured to this file, too")
       ->type_name("FILE");
@@ -195,7 +187,6 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
   if (name == "sweep") add_sweep(sub, line);
   if (name == "shape") add_shape(sub, line);
   if (name == "export") add_export(sub, line);
-  if (name == "import") add_import(sub, line);
   if (name == "bench") add_bench(sub, line);
   if (name == "calibrate")
     sub.add_flag("--plan", line.plan,

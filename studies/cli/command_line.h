@@ -34,8 +34,6 @@ struct CommandLine {
   std::filesystem::path stl;         ///< of shape: the surface goes to this file, too
   std::string format = "lammps";     ///< of export
   bool lossy = false;                ///< export --lossy
-  bool compare = false;              ///< import --compare
-  bool frames = false;               ///< import --frames
   bool quick = false;                ///< bench --quick
   std::filesystem::path json;        ///< of bench: where its document goes, too
   std::filesystem::path history;     ///< of bench: folder of the history; empty: in the cache

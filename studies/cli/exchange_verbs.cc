@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "studies/cli/run_verb.h"
@@ -9,8 +7,6 @@
 #include "studies/exchange/contact_export.h"
 #include "studies/exchange/fmu_files.h"
 #include "studies/exchange/lammps_files.h"
-#include "studies/exchange/lammps_import.h"
-#include "studies/jobs/interrupt.h"
 #include "studies/jobs/json_file.h"
 #include "studies/presses/press_setup.h"
 
@@ -30,72 +26,6 @@ nlohmann::ordered_json summary_of(const UndampedBody& body, const LammpsCensus& 
           {"bond_types", census.bond_types},
           {"step", body.step},
           {"left_out", {"dampers"}}};
-}
-
-nlohmann::ordered_json summary_of(const LammpsImport& run) {
-  nlohmann::ordered_json summary = {
-      {"frames", run.rows.size()},
-      {"broke_off", run.broke_off},
-      {"deviation", number_or_null(run.worst_deviation())},
-      {"velocity_deviation", number_or_null(run.worst_velocity_deviation())},
-      {"timing", nullptr}};
-  if (run.timing) {
-    summary["timing"] = {{"loop_time", run.timing->loop_time},
-                         {"ranks", run.timing->ranks},
-                         {"steps", run.timing->steps},
-                         {"springs", run.springs},
-                         {"ns_per_spring_step", run.timing->ns_per_spring_step(run.springs)}};
-  }
-  return summary;
-}
-
-/// Deviation from our own march, over the spacing, beyond which they are two motions: rounding
-/// alone stays ten thousand times below while it does not grow by itself.
-constexpr double same_motion = 1e-6;
-
-/// "" where nothing was compared or the frames agree; NaN does not agree.
-std::string parting(const LammpsImport& run, bool compared) {
-  if (!compared) return "";
-  const auto parted = std::ranges::find_if(
-      run.rows, [](const TrajectoryRow& row) { return !(row.deviation <= same_motion); });
-  if (parted == run.rows.end()) return "";
-  return fmt::format(
-      "not the same motion: from {:.4g} s on masses are more than {:.0e} of the spacing from our "
-      "own march. Where the deviation grew exponentially the motion is chaotic: very light masses "
-      "(cut cells of central, finite strain) that are shaken hard double any rounding every few "
-      "steps, in our own march as well. Export with a smaller exchange.agitation (1e-4) or with "
-      "fewer exchange.steps",
-      parted->time, same_motion);
-}
-
-void print_import(const LammpsImport& run, const fs::path& folder) {
-  fmt::print("{} frames{}\n", run.rows.size(),
-             run.broke_off ? ", and one that breaks off (LAMMPS was stopped, or is at work)" : "");
-  if (run.timing) {
-    fmt::print("{} steps on {} ranks in {:.3g} s: {:.3g} ns per spring and step\n",
-               run.timing->steps, run.timing->ranks, run.timing->loop_time,
-               run.timing->ns_per_spring_step(run.springs));
-  }
-  if (!std::isnan(run.worst_deviation())) {
-    fmt::print(
-        "largest deviation from our own march: positions {:.2g} of the spacing, velocities "
-        "{:.2g}\n",
-        run.worst_deviation(), run.worst_velocity_deviation());
-  }
-  fmt::print("trajectory: {}\n", (folder / "trajectory.csv").string());
-}
-
-/// The folder of an export, or a refusal.
-fs::path exported(const CommandLine& line) {
-  if (line.arguments.size() != 1) {
-    throw ConfigError({{"import", "", "", "needs one folder", "give what export has written to"}});
-  }
-  const fs::path folder = line.arguments.front();
-  if (!fs::exists(folder / "parameters.toml") || !fs::exists(folder / lammps_data)) {
-    throw ConfigError({{"RUN " + folder.string(), "", "", "is not the folder of an export",
-                        "give what fingertip export has written to"}});
-  }
-  return folder;
 }
 
 /// With the frictionless contact where none is given: the default sticks, and no law can say that.
@@ -179,15 +109,13 @@ int export_lammps(const CommandLine& line) {
     session.folder().log("dampers are left out: LAMMPS has none along bonds");
     foretell(session, "lammps",
              fmt::format("# A finger for LAMMPS\n\n`lattice.data`, `lattice.in`: {} masses, {} "
-                         "springs, without dampers, steps of {:.4g} s.\n\n    lmp -in {}\n    "
-                         "fingertip import --compare .\n\n",
+                         "springs, without dampers, steps of {:.4g} s.\n\n    lmp -in {}\n\n",
                          census.masses, census.springs, body.step, lammps_script),
              curves, line.quiet);
     if (line.quiet) return 0;
     fmt::print("{} masses, {} springs, {} anchors, without dampers; step {:.3g} s\n", census.masses,
                census.springs, census.anchors, body.step);
-    fmt::print("run it:       cd {} && lmp -in {}\n", folder.string(), lammps_script);
-    fmt::print("take it back: fingertip import --compare {}\n", folder.string());
+    fmt::print("run it: cd {} && lmp -in {}\n", folder.string(), lammps_script);
     return 0;
   });
 }
@@ -198,24 +126,6 @@ int run_export(const CommandLine& line) {
   return line.format == "lammps" ? export_lammps(line)
          : line.format == "fmu"  ? export_fmu(line)
                                  : export_contact(line);
-}
-
-int run_import(const CommandLine& line) {
-  const fs::path folder = exported(line);
-  ConfigSource source = line.config;
-  source.file = folder / "parameters.toml";
-  const LoadedConfig loaded = load_config(source);
-  const UndampedBody body = undamped_body(loaded);
-  watch_for_interrupts();
-  const LammpsImport run =
-      import_lammps(body, folder, {line.compare, line.frames, loaded.config.press.threads},
-                    [](long) { return !interrupted(); });
-  write_json(summary_of(run), folder / "import.json");
-  if (!line.quiet) print_import(run, folder);
-  const std::string parted = parting(run, line.compare);
-  if (parted.empty()) return 0;
-  fmt::print(stderr, "fingertip: not accepted: {}\n", parted);
-  return 4;
 }
 
 }  // namespace fingertip::studies

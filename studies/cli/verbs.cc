@@ -9,9 +9,9 @@ int run_verb(const CommandLine& line) {
       {"validate", run_validate},   {"press", run_press},     {"live", run_live},
       {"modes", run_modes},         {"grasp", run_grasp},     {"reference", run_reference},
       {"calibrate", run_calibrate}, {"compare", run_compare}, {"export", run_export},
-      {"import", run_import},       {"report", run_report},   {"check", run_check},
-      {"explain", run_explain},     {"init", run_init},       {"doctor", run_doctor},
-      {"bench", run_bench},         {"sweep", run_sweep},     {"shape", run_shape}};
+      {"report", run_report},       {"check", run_check},     {"explain", run_explain},
+      {"init", run_init},           {"doctor", run_doctor},   {"bench", run_bench},
+      {"sweep", run_sweep},         {"shape", run_shape}};
   return verbs.at(line.verb)(line);
 }
 

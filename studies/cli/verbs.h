@@ -29,7 +29,6 @@ int run_plan(const CommandLine& line, const LoadedConfig& loaded);
 int run_compare(const CommandLine& line);
 int run_report(const CommandLine& line);
 int run_export(const CommandLine& line);
-int run_import(const CommandLine& line);
 int run_sweep(const CommandLine& line);
 int run_check(const CommandLine& line);
 int run_shape(const CommandLine& line);

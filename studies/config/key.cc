@@ -39,7 +39,7 @@ const std::vector<Section>& sections() {
       {"grasp", "Two fingers that lift a rigid block, with press.contact, press.friction"},
       {"reference", "The continuum (finite elements)"},
       {"calibration", "How spring constants are fitted"},
-      {"exchange", "An undamped lattice for another program (verbs export, import)"},
+      {"exchange", "An undamped lattice for another program (export --format lammps)"},
       {"run", "How to compute"},
   };
   return all;

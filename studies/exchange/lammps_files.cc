@@ -8,7 +8,6 @@
 #include <string>
 
 #include "meshes/base/files.h"
-#include "studies/exchange/undamped_march.h"
 
 namespace fingertip::studies {
 
@@ -137,7 +136,7 @@ class DataFile {
 
   void write_velocities() {
     out_ << "\nVelocities\n\n";
-    const lattice::State start = UndampedMarch(body_).synchronised();
+    const lattice::State start = synchronised(body_, body_.start, 0.0);
     for (const std::uint32_t i : model_.particles) {
       const Vector3 v = model_.grid.axes * start.velocity.at(i);
       put("{} {} {} {}\n", id_[i], v.x(), v.y(), v.z());

@@ -1,5 +1,8 @@
 #include "studies/exchange/lammps_program.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 
@@ -19,6 +22,42 @@ std::string required(const std::string& program, const std::string& package) {
 }
 
 }  // namespace
+
+LammpsTiming read_lammps_log(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) {
+    throw meshes::InvalidInput({file.string(), "", "the log of LAMMPS cannot be read",
+                                "run lmp -in lattice.in in this folder first"});
+  }
+  LammpsTiming timing;
+  bool found = false;
+  std::string error, version;
+  double percent = 100.0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("ERROR")) error = line;
+    if (line.starts_with("LAMMPS (")) version = line.substr(8, line.rfind(')') - 8);
+    LammpsTiming loop;
+    if (std::sscanf(line.c_str(), "Loop time of %lf on %d procs for %ld steps with %zu atoms",
+                    &loop.loop_time, &loop.ranks, &loop.steps, &loop.atoms) == 4) {
+      timing = loop;
+      found = true;
+    }
+    if (found && std::sscanf(line.c_str(), "%lf%% CPU use", &percent) == 1)
+      timing.processor_share = std::min(1.0, 0.01 * percent);
+  }
+  timing.version = version;
+  const bool sound = std::isfinite(timing.loop_time) && timing.loop_time >= 0.0 &&
+                     timing.ranks >= 1 && timing.steps >= 0 && timing.processor_share >= 0.0;
+  if (found && error.empty() && !sound) {
+    throw meshes::InvalidInput(
+        {file.string(), "", "the log's times or numbers make no sense", "run LAMMPS again"});
+  }
+  if (!found || !error.empty()) {
+    throw meshes::InvalidInput({file.string(), error, "LAMMPS did not come to the end of its run",
+                                "let it run to its end, or see the log for the reason"});
+  }
+  return timing;
+}
 
 LammpsTiming run_lammps(const std::filesystem::path& folder, int ranks,
                         const std::string& program) {

@@ -6,6 +6,7 @@
 
 #include "lattice/contact/bond.h"
 #include "lattice/dynamics/time_step.h"
+#include "lattice/forces/forces.h"
 #include "lattice/model/cut_model.h"
 #include "studies/presses/press_setup.h"
 
@@ -135,6 +136,16 @@ void add_outer_forces(const UndampedBody& body, const lattice::State& state, dou
     if (body.wall) outer += body.wall->force(lattice::position(model, state, i), time);
     internal.add(i, model.grid.axes.transpose() * outer);
   }
+}
+
+lattice::State synchronised(const UndampedBody& body, lattice::State state, double time) {
+  lattice::Team team(1);
+  lattice::VectorField force(body.model.points());
+  lattice::InternalForces(body.model, team).accumulate(state, force);
+  add_outer_forces(body, state, time, force);
+  for (const std::uint32_t i : body.model.particles)
+    state.velocity.add(i, 0.5 * body.step * body.model.inverse_mass[i] * force.at(i));
+  return state;
 }
 
 UndampedBody undamped_body(const LoadedConfig& loaded) {

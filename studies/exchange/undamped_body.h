@@ -46,6 +46,12 @@ UndampedBody undamped_body(const LoadedConfig& loaded);
 /// sqrt(k1/m); the same on every machine and for any number of threads.
 lattice::State agitated(const lattice::LatticeModel& model, double agitation);
 
+/// The state at `time` [s] with velocities w of its time in place of v, half a step earlier:
+/// w = v + dt/2 a(x). Velocity Verlet from there goes through the same places as symplectic Euler:
+///   v_{n+1} = v_n + dt a(x_n),            x_{n+1} = x_n + dt v_{n+1};
+///   w_{n+1/2} = w_n + dt/2 a(x_n) = v_{n+1},  x_{n+1} = x_n + dt w_{n+1/2}.
+lattice::State synchronised(const UndampedBody& body, lattice::State state, double time);
+
 /// Adds ligaments, wall and weight at `time` [s] to the forces of the springs, `internal` [N].
 void add_outer_forces(const UndampedBody& body, const lattice::State& state, double time,
                       lattice::VectorField& internal);

@@ -10,7 +10,7 @@
 #include "studies/control/c_structs.h"
 #include "studies/control/local_socket.h"
 #include "studies/control/messages.h"
-#include "studies/exchange/lammps_output.h"
+#include "studies/exchange/lammps_program.h"
 #include "studies/live/access.h"
 #include "studies/live/protocol.h"
 #include "studies/live/reference.h"
@@ -95,39 +95,6 @@ TEST(FuzzMessages, RequestsToTheServer) {
                  EXPECT_TRUE(access.may_read(request));
                  return true;
                });
-}
-
-TEST(FuzzExchange, DumpsOfLammps) {
-  const TemporaryFolder folder;
-  const std::string head =
-      "ITEM: TIMESTEP\n20\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ss ss ss\n0 1\n0 1\n0 1\n";
-  const std::vector<std::string> seeds = {
-      head + "ITEM: ATOMS z y x id type vx vy vz\n3 2 1 2 1 4 5 6\n30 20 10 1 1 40 50 60 \n",
-      head + "ITEM: ATOMS id x y z vx vy vz\n1 1 1 1 0 0 0\n2 0.5 -1e-3 1 0 0 0\n" +
-          "ITEM: TIMESTEP\n40\n" + head.substr(head.find("ITEM: N")) +
-          "ITEM: ATOMS id x y z vx vy vz\n2 1 1 1 0 0 0\n1 0.5 -1e-3 1 0 0 0\n"};
-  const std::vector<std::string> words = {"ITEM: ",
-                                          "ITEM: ATOMS id x\n",
-                                          "ITEM: TIMESTEP\n",
-                                          " id",
-                                          " -1 ",
-                                          " 1.5 ",
-                                          "2",
-                                          "\n",
-                                          "ITEM: UNITS\nlj\n",
-                                          " vx",
-                                          " 1e19 "};
-  fuzz::attack({seeds, words}, fuzz::refusing<meshes::InvalidInput>([&](const std::string& input) {
-                 write_text(folder / "dump", input);
-                 LammpsDump dump(folder / "dump", 2);
-                 long before = -1;
-                 while (const auto frame = dump.next()) {
-                   EXPECT_GT(frame->step, before);
-                   before = frame->step;
-                   for (const auto* field : {&frame->position, &frame->velocity})
-                     for (const meshes::Vector3& vector : *field) EXPECT_TRUE(vector.allFinite());
-                 }
-               }));
 }
 
 TEST(FuzzExchange, LogsOfLammps) {

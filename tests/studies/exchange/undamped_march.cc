@@ -1,4 +1,4 @@
-#include "studies/exchange/undamped_march.h"
+#include "tests/studies/exchange/undamped_march.h"
 
 #include "lattice/contact/bond.h"
 #include "lattice/forces/energy.h"
@@ -18,11 +18,10 @@ lattice::Plane nowhere() {
 
 }  // namespace
 
-UndampedMarch::UndampedMarch(const UndampedBody& body, int threads)
+UndampedMarch::UndampedMarch(const UndampedBody& body)
     : body_(&body),
       finger_(body.model, body.rod, nowhere(), {}, lattice::Integrator::symplectic_euler, body.step,
-              threads),
-      force_(body.model.points()) {
+              1) {
   finger_.state() = body.start;
   finger_.set_gravity(body.gravity);
 }
@@ -44,16 +43,6 @@ void UndampedMarch::advance() {
   if (body_->wall) push_by_wall();
   finger_.advance(lattice::RodMotion{});
   ++steps_;
-}
-
-lattice::State UndampedMarch::synchronised() {
-  lattice::State state = finger_.state();
-  finger_.internal_forces(state, 0.0, force_);
-  add_outer_forces(*body_, state, time(), force_);
-  for (const std::uint32_t i : body_->model.particles) {
-    state.velocity.add(i, 0.5 * body_->step * body_->model.inverse_mass[i] * force_.at(i));
-  }
-  return state;
 }
 
 Energies energies(const UndampedBody& body, const lattice::State& state, double time) {
