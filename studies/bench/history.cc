@@ -26,14 +26,4 @@ void append_history(const ordered_json& bench, const fs::path& file) {
   if (!out) throw std::runtime_error("cannot write " + file.string());
 }
 
-ordered_json read_history(const fs::path& file) {
-  ordered_json runs = ordered_json::array();
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    ordered_json run = ordered_json::parse(line, nullptr, false);
-    if (run.is_object()) runs.push_back(std::move(run));
-  }
-  return runs;
-}
-
 }  // namespace fingertip::studies

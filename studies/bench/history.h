@@ -14,8 +14,4 @@ std::filesystem::path history_file(const std::filesystem::path& folder);
 /// std::runtime_error when it cannot be written.
 void append_history(const nlohmann::ordered_json& bench, const std::filesystem::path& file);
 
-/// Every run in the file, oldest first; lines that are no JSON object (a run was killed while it
-/// wrote) are left out. Empty without the file.
-nlohmann::ordered_json read_history(const std::filesystem::path& file);
-
 }  // namespace fingertip::studies

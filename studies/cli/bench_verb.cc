@@ -31,7 +31,6 @@ int run_bench(const CommandLine& line) {
     const std::filesystem::path& folder = session.folder().path();
     write_json(bench, folder / "bench.json");
     append_history(bench, history);
-    write_json({{"runs", read_history(history)}}, folder / "history.json");
     write_report(folder);
     if (!line.json.empty()) write_json(bench, line.json);
     if (line.quiet) return 0;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "studies/bench/history.h"
 #include "studies/files/places.h"
 #include "studies/jobs/json_file.h"
 #include "studies/jobs/provenance.h"
@@ -91,19 +90,13 @@ TEST(Bench, TheSmallestRunKeepsTheContractAndMakesAPage) {
   EXPECT_DOUBLE_EQ(press.at("spacing_over_R").get<double>(), 0.25);
   EXPECT_TRUE(press.at("real_time_factor").is_number());
   EXPECT_TRUE(press.at("worst_force_error").is_number());
-  studies::append_history(bench, folder / "history.jsonl");
-  studies::append_history(bench, folder / "history.jsonl");
-  studies::write_json({{"runs", studies::read_history(folder / "history.jsonl")}},
-                      folder / "run/history.json");
   studies::write_report(folder / "run");
   const std::string page = read_text(folder / "run/report.html");
   EXPECT_NE(page.find("Error against speed"), std::string::npos);
-  EXPECT_NE(page.find("edge_list_48_1t"), std::string::npos);
+  EXPECT_NE(page.find("network"), std::string::npos);
   EXPECT_EQ(bench.at("parts").empty(), !kernels_are_built());
-  for (const ordered_json& part : bench.at("parts")) {
+  for (const ordered_json& part : bench.at("parts"))
     EXPECT_GT(part.at("seconds").get<double>(), 0.0) << part;
-    EXPECT_NE(page.find(part.at("part").get<std::string>()), std::string::npos) << part;
-  }
   EXPECT_NE(studies::bench_text(bench).find("network"), std::string::npos);
 }
 

@@ -2,16 +2,159 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 
-#include "studies/report/chapters/bench/bench_figures.h"
+#include "studies/report/figure/figure.h"
+#include "studies/report/figure/format.h"
 #include "studies/report/page/words.h"
 #include "studies/report/results/run_data.h"
 
 namespace fingertip::studies::reporting {
 namespace {
+
+/// Worst error that counts as accurate [%], and the factor from which on a press is in real time.
+constexpr double accurate = 2.0, real_time = 1.0;
+
+constexpr const char* usual_integrator = "symplectic-euler";
+
+/// What one core of its own would give, where that was measured.
+double pace_of(const JsonEntry& press) {
+  const double processor = number_if_any(press, "real_time_factor_processor");
+  return std::isfinite(processor) ? processor : number_if_any(press, "real_time_factor");
+}
+
+/// Colour tells the model, the marker the integrator: circles for plain steps, triangles for scaled
+/// masses, upside down of the whole tip; hollow where something else than one core against law A is
+/// meant.
+struct Family {
+  std::string label, model, integrator, error_key;
+  double threads = 1.0;
+  bool hollow = false;
+  double label_height = 0.84;  ///< where "R/n" is written, over the point's error; 0: nowhere
+  bool whole = false;
+};
+
+Style family_style(const std::string& model, bool usual_steps) {
+  Style style = model_style(model);
+  style.point = usual_steps ? 7 : 9;
+  style.point_size = usual_steps ? 0.9 : 1.2;
+  style.dash = usual_steps ? "" : "(8,4)";
+  style.width = 2.2;
+  return style;
+}
+
+/// The presses of a family, each point with its R/n.
+void add_family(Panel& panel, const JsonEntry& bench, const Family& family) {
+  Series series;
+  series.label = family.label;
+  series.style = family_style(family.model, family.integrator == usual_integrator);
+  if (family.whole) series.style.point = 11;
+  if (family.hollow) {
+    series.style.point -= 1;
+    series.style.dash = "(2,4)";
+    series.style.width = 1.4;
+  }
+  for (const JsonEntry& press : array_if_any(bench, "press")) {
+    if (text_if_any(press, "model") != family.model ||
+        text_if_any(press, "integrator") != family.integrator ||
+        number_if_any(press, "threads") != family.threads ||
+        press.at("whole").flag() != family.whole)
+      continue;
+    const double error = 100.0 * number_if_any(press, family.error_key), pace = pace_of(press);
+    if (!std::isfinite(error) || !std::isfinite(pace)) continue;
+    series.x.push_back(pace);
+    series.y.push_back(error);
+    if (family.label_height > 0.0)
+      panel.texts.push_back(
+          {pace, family.label_height * error,
+           fmt::format("R/{:.0f}", 1.0 / number_if_any(press, "spacing_over_R"))});
+  }
+  if (!series.x.empty()) panel.series.push_back(std::move(series));
+}
+
+void add_lattices(Panel& panel, const JsonEntry& bench) {
+  const char *usual = usual_integrator, *scaled = "mass-scaled";
+  constexpr double above = 1.22;
+  const char *law_a = "worst_force_error", *small = "worst_force_error_small_strain";
+  add_family(panel, bench, {"network", "network", usual, law_a});
+  add_family(panel, bench, {"network, scaled masses", "network", scaled, law_a, 1.0, false, above});
+  add_family(panel, bench,
+             {"… on two cores (wall clock)", "network", scaled, law_a, 2.0, true, 0.0});
+  add_family(panel, bench,
+             {"… the whole tip (one core)", "network", scaled, law_a, 1.0, true, 0.0, true});
+  add_family(panel, bench, {"hookean", "hookean", usual, law_a, 1.0, false, above});
+  add_family(panel, bench, {"… against small strain", "hookean", usual, small, 1.0, true, 0.0});
+  add_family(panel, bench,
+             {"… against it, scaled masses", "hookean", scaled, small, 1.0, true, 0.0});
+  add_family(panel, bench, {"published (1996)", "published", usual, law_a});
+}
+
+/// Each point with its number of unknowns.
+void add_continua(Panel& panel, const JsonEntry& bench) {
+  std::map<int, Series> by_degree;
+  for (const JsonEntry& entry : array_if_any(bench, "continua")) {
+    const double error = 100.0 * number_if_any(entry, "worst_force_error");
+    const double pace = number_if_any(entry, "real_time_factor");
+    if (!std::isfinite(error) || !std::isfinite(pace)) continue;
+    const int degree = int(number_if_any(entry, "degree"));
+    Series& series = by_degree[degree];
+    series.label = fmt::format("quasi-static FEM, Q{}, unknowns", degree);
+    series.style = model_style("reference");
+    series.style.point = degree == 1 ? 4 : 5;
+    series.style.point_size = 0.9;
+    if (degree == 1) series.style.dash = "(6,3)";
+    series.x.push_back(pace);
+    series.y.push_back(error);
+    panel.texts.push_back({pace, 1.22 * error, count(number_if_any(entry, "unknowns"))});
+  }
+  for (auto& [degree, series] : by_degree) panel.series.push_back(std::move(series));
+}
+
+/// The corner that every press should be in, behind everything else.
+void add_target(Panel& panel) {
+  const Range x = {real_time, panel.x_range->to}, y = {panel.y_range->from, accurate};
+  Series corner;
+  corner.key = "target";
+  corner.filled = true;
+  corner.style.colour = "#E69F00";
+  corner.x = {x.from, x.to, x.to, x.from, x.from};
+  corner.y = {y.from, y.from, y.to, y.to, y.from};
+  panel.series.insert(panel.series.begin(), corner);
+  panel.texts.push_back({std::sqrt(x.from * x.to), 1.25 * y.from, "2 %, real time"});
+}
+
+/// The range of logarithmic data with room at both ends, and `include` in it.
+Range roomy(const std::vector<Series>& all, bool vertical, double include) {
+  double low = include, high = include;
+  for (const Series& series : all)
+    for (const double value : vertical ? series.y : series.x) {
+      low = std::fmin(low, value);
+      high = std::fmax(high, value);
+    }
+  return {low / 1.6, high * 1.6};
+}
+
+/// Error of the force against the real-time factor: every way of simulating the press.
+Figure pace_figure(const JsonEntry& bench) {
+  Panel panel;
+  panel.x_label = "real-time factor in the slowest 10 ms [1]";
+  panel.y_label = fmt::format("largest force error, {} to {} [%]", shown_units().length.text(1e-3),
+                              shown_units().length.text(3e-3));
+  panel.log_x = panel.log_y = 10;
+  panel.key = "outside right top";
+  add_lattices(panel, bench);
+  add_continua(panel, bench);
+  if (panel.series.empty()) return {"pace", 0, 0, 1, {}};
+  panel.x_range = roomy(panel.series, false, real_time);
+  panel.x_range->to = std::fmax(panel.x_range->to, 10.0 * real_time);
+  panel.y_range = roomy(panel.series, true, accurate);
+  panel.y_range->from = std::fmin(panel.y_range->from, 0.25 * accurate);
+  panel.markers = {{real_time, "#444444"}};
+  add_target(panel);
+  return {"pace", 940, 540, 1, {panel}};
+}
 
 std::string spacing_text(const JsonEntry& press) {
   return fmt::format("R/{:.3g}", 1.0 / number_if_any(press, "spacing_over_R"));
@@ -51,6 +194,7 @@ Table press_table(const JsonEntry& bench) {
   };
   for (const JsonEntry& press : array_if_any(bench, "press")) {
     const double processor = number_if_any(press, "real_time_factor_processor");
+    const double parts = number_if_any(press, "parts");
     const double step = number_if_any(press, "time_step"),
                  cost = number_if_any(press, "ns_per_mass_step");
     const double small = number_if_any(press, "worst_force_error_small_strain");
@@ -58,7 +202,7 @@ Table press_table(const JsonEntry& bench) {
         {plain(text_if_any(press, "model"), text_if_any(press, "kinematics") + " strain" +
                                                 (is_scaled(press) ? ", scaled masses" : "")),
          plain(spacing_text(press), count(number_if_any(press, "particles"))),
-         plain(parts_of(press) == 1.0 ? "all" : "1/" + count(parts_of(press))),
+         plain(parts == 1.0 ? "all" : "1/" + count(parts)),
          plain(count(number_if_any(press, "threads"))),
          plain(number(number_if_any(press, "real_time_factor"), 3),
                std::isfinite(processor) ? number(processor, 3) : ""),
@@ -74,34 +218,6 @@ Table press_table(const JsonEntry& bench) {
          plain(std::isfinite(cost) ? with_prefix(1e-9 * cost, "s") : "–")});
   }
   table.graded = true;
-  return table;
-}
-
-/// Where a step with scaled masses goes, beside what moving its memory once would take.
-Table part_table(const JsonEntry& bench) {
-  Table table;
-  table.header = {plain("Part"),
-                  plain("Time"),
-                  plain("Share of the step"),
-                  plain("Memory touched"),
-                  plain("From L2", "at least"),
-                  plain("From DRAM", "at least")};
-  const JsonList parts = array_if_any(bench, "parts");
-  const JsonEntry probes = object_if_any(bench, "probes");
-  double whole = meshes::unknown;
-  for (const JsonEntry& part : parts)
-    if (text_if_any(part, "part") == "whole step") whole = number_if_any(part, "seconds");
-  for (const JsonEntry& part : parts) {
-    const double seconds = number_if_any(part, "seconds"), bytes = number_if_any(part, "bytes");
-    const auto moved = [&](const char* bandwidth) {
-      const double least = bytes / number_if_any(probes, bandwidth);
-      return plain(std::isfinite(least) ? with_prefix(least, "s") : "–");
-    };
-    table.rows.push_back({plain(text_if_any(part, "part")), plain(with_prefix(seconds, "s")),
-                          plain(percent_magnitude(seconds / whole)),
-                          plain(std::isfinite(bytes) ? with_prefix(bytes, "B") : "–"),
-                          moved("bandwidth_L2"), moved("bandwidth_DRAM")});
-  }
   return table;
 }
 
@@ -126,168 +242,7 @@ Chapter pace_chapter(const JsonEntry& bench) {
   chapter.figures = {pace_figure(bench)};
   chapter["edge_list"] = number(edge_list_cost(bench), 3);
   chapter.tables["presses"] = press_table(bench);
-  chapter.tables["parts"] = part_table(bench);
   chapter.tables["continua"] = continuum_table(bench);
-  return written(std::move(chapter));
-}
-
-Table kernel_table(const JsonEntry& bench, const char* list) {
-  Table table;
-  table.header = {plain("Kernel"),
-                  plain("Registers"),
-                  plain("Precision"),
-                  plain("Threads"),
-                  plain("Masses"),
-                  plain("ns per spring and step"),
-                  plain("Operations per spring"),
-                  plain("Roofline")};
-  for (const JsonEntry& kernel : array_if_any(bench, list)) {
-    const double fraction = number_if_any(kernel, "roofline_fraction");
-    table.rows.push_back({plain(text_if_any(kernel, "name")), plain(text_if_any(kernel, "isa")),
-                          plain(text_if_any(kernel, "precision")),
-                          plain(count(number_if_any(kernel, "threads"))),
-                          plain(count(number_if_any(kernel, "masses"))),
-                          plain(number(number_if_any(kernel, "ns_per_spring_step"), 3)),
-                          plain(number(number_if_any(kernel, "operations_per_spring"), 3)),
-                          plain(std::isfinite(fraction) ? percent_magnitude(fraction) : "–",
-                                text_if_any(kernel, "remark"))});
-  }
-  return table;
-}
-
-/// What each ratio is hoped to reach: at least, or for the peers' own at most.
-std::string aim_of(const std::string& name) {
-  static const std::map<std::string, const char*> aims = {
-      {"edge_list_48_1t", "9"},
-      {"edge_list_20_1t", "6"},
-      {"edge_list_48_2t", "16"},
-      {"edge_list_20_2t", "11"},
-      {"lammps_48_1t", "10"},
-      {"lammps_20_1t", "7"},
-      {"lammps_48_2t", "10"},
-      {"lammps_20_2t", "7"},
-      {"roofline_48_1t", "0.50"},
-      {"roofline_20_1t", "0.38"},
-      {"threads_48", "1.85"},
-      {"threads_20", "1.85"},
-      {"edge_list_over_lammps_48", "at most 1.1"},
-      {"edge_list_over_lammps_20", "at most 1.1"}};
-  const auto aim = aims.find(name);
-  return aim == aims.end() ? "" : aim->second;
-}
-
-Table ratio_table(const JsonEntry& bench) {
-  Table table;
-  table.header = {plain("Ratio"),  plain("Median"),  plain("Aim"),
-                  plain("Lowest"), plain("Highest"), plain("Remark")};
-  const JsonEntry values = object_if_any(bench, "ratios");
-  const JsonEntry rounds = object_if_any(bench, "ratio_rounds");
-  const JsonEntry missing = object_if_any(bench, "missing_ratios");
-  for (const auto& [name, value] : values.members()) {
-    double low = meshes::unknown, high = meshes::unknown;
-    for (const double ratio : numbers_if_any(rounds, name)) {
-      low = std::fmin(low, ratio);
-      high = std::fmax(high, ratio);
-    }
-    Cell remark = plain(text_if_any(missing, name));
-    remark.words = true;
-    table.rows.push_back({plain(name), plain(number(value.number(), 3)), plain(aim_of(name)),
-                          plain(number(low, 3)), plain(number(high, 3)), remark});
-  }
-  return table;
-}
-
-Chapter kernel_chapter(const JsonEntry& bench) {
-  if (!bench.contains("kernels")) return {};
-  ChapterData chapter("kernels");
-  chapter.tables["ratios"] = ratio_table(bench);
-  for (const char* list : {"kernels", "peers"}) chapter.tables[list] = kernel_table(bench, list);
-  return written(std::move(chapter));
-}
-
-/// Least and largest cost of a spring [ns], of the engine on one thread with the widest registers,
-/// for lattices of `from` to `to` masses; NaN where there are none.
-std::pair<double, double> costs_between(const JsonEntry& bench, double from, double to) {
-  std::pair<double, double> costs{meshes::unknown, meshes::unknown};
-  for (const JsonEntry& kernel : array_if_any(bench, "kernels")) {
-    const double masses = number_if_any(kernel, "masses");
-    if (text_if_any(kernel, "name") != "springs" || text_if_any(kernel, "precision") != "float64" ||
-        text_if_any(kernel, "isa") !=
-            text_if_any(object_if_any(bench, "machine"), "isa_measured") ||
-        number_if_any(kernel, "threads") != 1.0 || !(masses >= from && masses <= to))
-      continue;
-    const double cost = number_if_any(kernel, "ns_per_spring_step");
-    costs = {std::fmin(costs.first, cost), std::fmax(costs.second, cost)};
-  }
-  return costs;
-}
-
-/// How far the cost of a spring goes apart from 1e4 masses on, and why.
-Chapter growth_chapter(const JsonEntry& bench) {
-  const double held = number_if_any(object_if_any(bench, "probes"), "cache_L3") / 48.0;
-  const auto [least, most] = costs_between(bench, 1e4, held);
-  const auto beyond = costs_between(bench, held, 1e9);
-  const bool both = std::isfinite(beyond.first) && std::isfinite(least);
-  ChapterData chapter("growth");
-  chapter["least"] = number(least, 3);
-  chapter["most"] = number(most, 3);
-  chapter["factor"] = most > least ? number(most / least, 3) : "";
-  chapter["dram"] = number(dram_cost(bench), 3);
-  chapter["sum"] = number(least + dram_cost(bench), 3);
-  chapter["beyond"] = both ? number(beyond.second, 3) : "";
-  chapter.figures = {growth_figure(bench), press_growth_figure(bench)};
-  return written(std::move(chapter));
-}
-
-Chapter time_chapter(const JsonEntry& bench) {
-  ChapterData chapter("times");
-  Table table;
-  table.header = {plain("What"), plain("Time"), plain("Remark")};
-  for (const JsonEntry& entry : array_if_any(bench, "times"))
-    table.rows.push_back({plain(text_if_any(entry, "what")),
-                          plain(with_prefix(number_if_any(entry, "seconds"), "s")),
-                          plain(entry.at("from_cache").flag() ? "from an earlier run" : "")});
-  chapter.tables["times"] = std::move(table);
-  return written(std::move(chapter));
-}
-
-Chapter machine_chapter(const JsonEntry& bench, const JsonList& history) {
-  const JsonEntry facts = object_if_any(bench, "machine");
-  const JsonEntry probes = object_if_any(bench, "probes");
-  Table table;
-  table.header = {plain("Fact"), plain("Value")};
-  for (const auto& [name, value] : facts.members()) {
-    const bool bytes = name.ends_with(" [B]") && value.is_number();
-    const std::string text = value.text();
-    const bool fraction = value.is_number() && text.find_first_of(".e") != text.npos;
-    table.rows.push_back({plain(bytes ? name.substr(0, name.size() - 4) : name),
-                          plain(bytes      ? with_prefix(value.number(), "B")
-                                : fraction ? number(value.number(), 3)
-                                           : text)});
-  }
-  const JsonEntry rates = object_if_any(probes, "multiply_adds_per_second");
-  for (const auto& [isa, rate] : rates.members())
-    if (!rate.is_null())
-      table.rows.push_back(
-          {plain("multiply-adds, " + isa), plain(with_prefix(rate.number(), "/s"))});
-  const JsonEntry mixed = object_if_any(probes, "operations_per_second");
-  for (const auto& [isa, rate] : mixed.members())
-    if (!rate.is_null())
-      table.rows.push_back({plain("additions and multiplications, " + isa),
-                            plain(with_prefix(rate.number(), "/s"))});
-  for (const char* name : {"bandwidth_L2", "bandwidth_DRAM"})
-    if (const double rate = number_if_any(probes, name); std::isfinite(rate))
-      table.rows.push_back({plain(name), plain(with_prefix(rate, "B/s"))});
-  WordList missing;
-  const JsonEntry programs = object_if_any(bench, "missing_programs");
-  for (const auto& [program, why] : programs.members()) {
-    missing.emplace_back()["program"] = program;
-    missing.back()["why"] = why.text();
-  }
-  ChapterData chapter("machine");
-  chapter["missing"] = std::move(missing);
-  chapter.figures = {history_figure(history)};
-  chapter.tables["facts"] = std::move(table);
   return written(std::move(chapter));
 }
 
@@ -325,18 +280,14 @@ std::string answer_text(const JsonEntry& bench) {
 
 Page bench_page(const std::filesystem::path& run_folder, FolderReader& reader) {
   const JsonEntry bench = reader.json(run_folder / "bench.json");
-  const JsonEntry log = reader.json(run_folder / "history.json");
-  const JsonList history = reader.attempt([&] { return array_if_any(log, "runs"); });
   Page page;
   page.title = "Soft fingertip: speed";
-  page.subtitle = "What kernels, presses and peers cost on this machine, " +
+  page.subtitle = "What presses cost on this machine, " +
                   reader.attempt([&] { return text_if_any(bench, "date"); });
   if (reader.attempt([&] { return bench.at("quick").flag(); }))
     page.status = "Quick run: coarse lattices, few repeats.";
   page.answer = reader.attempt([&] { return answer_text(bench); });
-  for (const auto chapter : {pace_chapter, kernel_chapter, growth_chapter, time_chapter})
-    page.chapters.push_back(reader.attempt([&] { return chapter(bench); }));
-  page.chapters.push_back(reader.attempt([&] { return machine_chapter(bench, history); }));
+  page.chapters.push_back(reader.attempt([&] { return pace_chapter(bench); }));
   return page;
 }
 
