@@ -13,7 +13,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
   using Algebra = PackAlgebra<Pack>;
   using typename Algebra::Rows;
   using Vector = PackVector<Pack>;
-  using Law = CellStrainEnergy::Law;
+  using Law = meshes::RubberLaw;
 
   /// Of a symmetric matrix.
   struct Symmetric {
@@ -57,10 +57,10 @@ struct Hyperelastic : PackAlgebra<Pack> {
   struct Volume {
     Pack energy, pressure, stiffness;
   };
-  [[gnu::always_inline]] static Volume volume(const CellStrainEnergy& law, const Pack& J,
+  [[gnu::always_inline]] static Volume volume(const CellMaterial& material, const Pack& J,
                                               const Pack& log_J) {
-    const Pack m = law.volumetric;
-    if (law.logarithmic) return {Pack(0.5) * m * log_J * log_J, m * log_J, m};
+    const Pack m = material.volumetric;
+    if (material.energy.logarithmic()) return {Pack(0.5) * m * log_J * log_J, m * log_J, m};
     const Pack h = J - Pack(1.0), stress = m * h * J;
     return {Pack(0.5) * m * h * h, stress, m * J * (J + h)};
   }
@@ -69,7 +69,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
   struct Slopes {
     Pack energy, first, second, curvature, room;
   };
-  [[gnu::always_inline]] static Slopes slopes(const CellStrainEnergy& law, const Pack& x) {
+  [[gnu::always_inline]] static Slopes slopes(const meshes::StrainEnergy& law, const Pack& x) {
     const Pack half = 0.5, none = 0.0, one = 1.0;
     switch (law.law) {
       case Law::yeoh: {
@@ -92,7 +92,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
     }
   }
   /// What laws of full invariants have in ln J, over G.
-  [[gnu::always_inline]] static double reaction(const CellStrainEnergy& law) {
+  [[gnu::always_inline]] static double reaction(const meshes::StrainEnergy& law) {
     if (law.law == Law::mooney_rivlin) return 1.0 + law.shape[0];
     if (law.law != Law::ogden) return 1.0;
     double sum = 0.0;
@@ -105,13 +105,13 @@ struct Hyperelastic : PackAlgebra<Pack> {
   [[gnu::always_inline]] static Answer of_invariants(const CellMaterial& m, const Rows& F,
                                                      const Rows& T, const Pack& J,
                                                      const Pack& excess) {
-    const CellStrainEnergy& law = m.energy;
+    const meshes::StrainEnergy& law = m.energy;
     const Pack G = m.shear, log_J = Algebra::log(J), square = norm(F), I1 = square + excess,
                third = Pack(1.0 / 3.0);
     const Pack g = Algebra::gershgorin(T), c = Algebra::gershgorin(F);
-    const Pack a = law.isochoric ? Algebra::exp(Pack(-2.0 / 3.0) * log_J) : Pack(1.0);
+    const Pack a = law.isochoric() ? Algebra::exp(Pack(-2.0 / 3.0) * log_J) : Pack(1.0);
     const Slopes d = slopes(law, a * I1 - Pack(3.0));
-    const Volume v = volume(law, J, log_J);
+    const Volume v = volume(m, J, log_J);
     const Pack first = Pack(2.0) * G * d.first * a, curvature = Pack(4.0) * G * d.curvature * a * a;
     const Pack second = Pack(2.0) * G * d.second * a * a;
     const bool two = law.law == Law::mooney_rivlin;
@@ -136,7 +136,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
     Pack wave = first + second * min(Pack(2.0) * c, square),
          all = first + second * (Pack(3.0) * square + c);
     Pack normal = bulk, spread = 0.0;
-    if (law.isochoric) {
+    if (law.isochoric()) {
       const Pack share = Pack(0.5) * first * I1;  // of I1, and of I2 below
       answer.pressure = v.pressure - Pack(2.0 / 3.0) * share - Pack(2.0 / 3.0) * second * I2;
       const Pack mixed = Pack(2.0 / 3.0) * first;
@@ -212,7 +212,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
   struct Powers {
     Pack tau[3], gamma[3], energy, power[3], slope[3], secant[3];
   };
-  static Powers powers(const CellStrainEnergy& law, const Pack (&log_l)[3], const Pack& scale) {
+  static Powers powers(const meshes::StrainEnergy& law, const Pack (&log_l)[3], const Pack& scale) {
     Powers p;
     p.energy = 0.0;
     Pack inverse[3];
@@ -238,11 +238,11 @@ struct Hyperelastic : PackAlgebra<Pack> {
 
   static Answer of_stretches(const CellMaterial& m, const Rows& F, const Pack& J,
                              const Pack& excess) {
-    const CellStrainEnergy& law = m.energy;
+    const meshes::StrainEnergy& law = m.energy;
     const Pack G = m.shear, log_J = Algebra::log(J), third = Pack(1.0 / 3.0);
     const Spectrum s = spectrum(right_cauchy_green(F));
     const Pack square[3] = {s.squares.x, s.squares.y, s.squares.z};
-    const Pack mean = law.isochoric ? third * log_J : Pack(0.0),
+    const Pack mean = law.isochoric() ? third * log_J : Pack(0.0),
                scale = Algebra::exp(Pack(-2.0) * mean);
     Pack log_l[3], root[3];
     for (int k = 0; k < 3; ++k) {
@@ -250,21 +250,21 @@ struct Hyperelastic : PackAlgebra<Pack> {
       root[k] = Pack(1.0) / square[k];
     }
     Powers p = powers(law, log_l, scale);
-    const Volume v = volume(law, J, log_J);
+    const Volume v = volume(m, J, log_J);
     const Pack chi = p.power[0] + p.power[1] + p.power[2];
     Pack tau[3];
     const Pack tau_mean = third * (p.tau[0] + p.tau[1] + p.tau[2]),
                slope_mean = third * (p.slope[0] + p.slope[1] + p.slope[2]);
     const Pack half = Pack(0.5) * excess;
     for (int k = 0; k < 3; ++k) {
-      tau[k] = law.isochoric
+      tau[k] = law.isochoric()
                    ? p.tau[k] - tau_mean + half * (p.slope[k] - slope_mean - Pack(2.0 / 3.0) * chi)
                    : p.tau[k] + half * p.slope[k];
     }
     Answer answer;
     answer.room = 1.0;
     answer.modes = chi;
-    answer.pressure = v.pressure - (law.isochoric ? Pack(0.0) : Pack(reaction(law)) * G);
+    answer.pressure = v.pressure - (law.isochoric() ? Pack(0.0) : Pack(reaction(law)) * G);
     const Pack along[3] = {G * tau[0] * root[0], G * tau[1] * root[1], G * tau[2] * root[2]};
     const auto& [x, y, z] = s.axes;
     const auto sum = [&](const Vector& a, const Vector& b) __attribute__((always_inline)) {
@@ -279,7 +279,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
       Pack row = 0.0;
       for (int l = 0; l < 3; ++l) {
         Pack change = k == l ? G * p.gamma[k] : Pack(0.0);
-        if (law.isochoric) change += G * (gamma_mean - third * (p.gamma[k] + p.gamma[l]));
+        if (law.isochoric()) change += G * (gamma_mean - third * (p.gamma[k] + p.gamma[l]));
         const Pack product = sqrt(root[k] * root[l]), straight = (change + v.stiffness) * product,
                    held = G * tau[l] + answer.pressure;
         if (k == l) {
@@ -306,7 +306,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
     return answer;
   }
   /// Bounds the second derivatives of chi with the logarithms of the stretches over chi.
-  [[gnu::always_inline]] static double fluctuation(const CellStrainEnergy& law) {
+  [[gnu::always_inline]] static double fluctuation(const meshes::StrainEnergy& law) {
     double largest = 0.0;
     for (int i = 0; i < 6; i += 2) {
       const double n = law.shape[i + 1] - 2.0;
@@ -329,14 +329,14 @@ struct Hyperelastic : PackAlgebra<Pack> {
   template <CellLawKind Kind>
   static Pack energy(const CellMaterial& m, const Rows& H, const Pack& J, const Pack& excess,
                      Pack& room) {
-    const CellStrainEnergy& law = m.energy;
+    const meshes::StrainEnergy& law = m.energy;
     const Pack G = m.shear, log_J = Algebra::log(J), third = Pack(1.0 / 3.0);
-    const Pack rest = law.isochoric ? Pack(0.0) : Pack(reaction(law)) * log_J;
-    const Pack volumetric = volume(law, J, log_J).energy;
+    const Pack rest = law.isochoric() ? Pack(0.0) : Pack(reaction(law)) * log_J;
+    const Pack volumetric = volume(m, J, log_J).energy;
     if constexpr (Kind == CellLawKind::stretches) {
       const Spectrum s = spectrum(right_cauchy_green(Algebra::plus_one(H)));
       const Pack square[3] = {s.squares.x, s.squares.y, s.squares.z};
-      const Pack mean = law.isochoric ? third * log_J : Pack(0.0);
+      const Pack mean = law.isochoric() ? third * log_J : Pack(0.0);
       Pack log_l[3];
       for (int k = 0; k < 3; ++k) log_l[k] = Pack(0.5) * Algebra::log(square[k]) - mean;
       const Powers p = powers(law, log_l, Algebra::exp(Pack(-2.0) * mean));
@@ -347,7 +347,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
       // By C - 1, which does not cancel at small strain.
       const Symmetric D = strain(H);
       const Pack trace = D.xx + D.yy + D.zz,
-                 less = law.isochoric ? Algebra::expm1(Pack(-2.0 / 3.0) * log_J) : Pack(0.0),
+                 less = law.isochoric() ? Algebra::expm1(Pack(-2.0 / 3.0) * log_J) : Pack(0.0),
                  a = Pack(1.0) + less;
       const Slopes d = slopes(law, a * (trace + excess) + Pack(3.0) * less);
       room = d.room;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "meshes/rubber/strain_energy.h"
+
 namespace fingertip::lattice {
 
 /// What a cell stores per volume of its rubber, as a function of the mean F = 1 + H of dx/dX over
@@ -25,22 +27,13 @@ namespace fingertip::lattice {
 /// damped, and equal to tau times the stiffness at rest.
 enum class CellLawKind { cubic, volume, network, invariants, stretches };
 
-/// meshes::StrainEnergy as plain data.
-struct CellStrainEnergy {
-  enum class Law { neo_hookean, yeoh, mooney_rivlin, ogden, gent };
-  Law law = Law::neo_hookean;
-  bool isochoric = false;   ///< whether W sees F free of the change of volume
-  bool logarithmic = true;  ///< whether the volumetric part is m/2 (ln J)², not m/2 (J - 1)²
-  double volumetric = 0.0;  ///< m [Pa]
-  double shape[6] = {};
-};
-
 struct CellMaterial {
   CellLawKind kind = CellLawKind::cubic;
   double c11 = 0.0, c12 = 0.0, c44 = 0.0;  ///< cubic, along the grid's axes [Pa]
   double kappa = 0.0;                      ///< volume [Pa]
   double shear = 0.0, lambda = 0.0;        ///< network and beyond: G > 0, lambda at rest [Pa]
-  CellStrainEnergy energy;                 ///< invariants, stretches
+  meshes::StrainEnergy energy;             ///< invariants, stretches
+  double volumetric = 0.0;                 ///< of these m, of their m/2 h(J)² [Pa]
   double bending = 0.0;  ///< modulus of the bilinear modes, the fibres' share of C44 or G [Pa]
   double retardation_time = 0.0;  ///< tau [s], not negative
 

@@ -1,6 +1,5 @@
 #include "lattice/model/cell_law.h"
 
-#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -9,22 +8,7 @@
 namespace fingertip::lattice {
 
 meshes::HyperelasticLaw hyperelastic_law(const CellMaterial& material) {
-  using meshes::RubberLaw, meshes::VolumetricLaw;
-  const CellStrainEnergy& own = material.energy;
-  meshes::StrainEnergy energy;
-  switch (own.law) {
-    case CellStrainEnergy::Law::neo_hookean: energy.law = RubberLaw::neo_hookean; break;
-    case CellStrainEnergy::Law::yeoh: energy.law = RubberLaw::yeoh; break;
-    case CellStrainEnergy::Law::mooney_rivlin: energy.law = RubberLaw::mooney_rivlin; break;
-    case CellStrainEnergy::Law::ogden: energy.law = RubberLaw::ogden; break;
-    case CellStrainEnergy::Law::gent: energy.law = RubberLaw::gent; break;
-  }
-  energy.volumetric =
-      own.isochoric
-          ? (own.logarithmic ? VolumetricLaw::isochoric_logarithmic : VolumetricLaw::quadratic)
-          : (own.logarithmic ? VolumetricLaw::logarithmic : VolumetricLaw::full_quadratic);
-  std::ranges::copy(own.shape, energy.shape.begin());
-  return {energy, material.shear, own.volumetric};
+  return {material.energy, material.shear, material.volumetric};
 }
 
 namespace {

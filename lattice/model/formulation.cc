@@ -1,6 +1,5 @@
 #include "lattice/model/formulation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -37,19 +36,9 @@ CellMaterial network_material(const meshes::StrainEnergy& energy, double shear, 
   material.kind = energy == meshes::StrainEnergy() ? CellLawKind::network
                   : energy.law == RubberLaw::ogden ? CellLawKind::stretches
                                                    : CellLawKind::invariants;
-  CellStrainEnergy& own = material.energy;
-  switch (energy.law) {
-    case RubberLaw::yeoh: own.law = CellStrainEnergy::Law::yeoh; break;
-    case RubberLaw::mooney_rivlin: own.law = CellStrainEnergy::Law::mooney_rivlin; break;
-    case RubberLaw::ogden: own.law = CellStrainEnergy::Law::ogden; break;
-    case RubberLaw::gent: own.law = CellStrainEnergy::Law::gent; break;
-    default: break;
-  }
-  own.isochoric = energy.isochoric();
-  own.logarithmic = energy.logarithmic();
-  own.volumetric =
-      own.isochoric ? lambda + 2.0 / 3.0 * shear : lambda - energy.lambda_share() * shear;
-  std::ranges::copy(energy.shape, own.shape);
+  material.energy = energy;
+  material.volumetric =
+      energy.isochoric() ? lambda + 2.0 / 3.0 * shear : lambda - energy.lambda_share() * shear;
   material.shear = shear;
   material.lambda = lambda;
   material.bending = share * shear;

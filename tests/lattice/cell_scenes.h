@@ -72,11 +72,16 @@ inline CellMaterial material(CellLawKind kind, double retardation_time = 0.0) {
   m.shear = 1.4e3, m.lambda = 9.1e3;
   m.bending = 450.0;
   m.retardation_time = retardation_time;
-  using Law = lattice::CellStrainEnergy::Law;
+  using meshes::RubberLaw, meshes::VolumetricLaw;
   // Laws whose energy can be written without principal stretches (tests/lattice/reference.h).
-  if (kind == CellLawKind::invariants) m.energy = {Law::mooney_rivlin, true, false, 1e4, {0.3}};
-  if (kind == CellLawKind::stretches)
-    m.energy = {Law::ogden, false, true, 9.1e3, {0.2, 4.0, 0.8, -2.0}};
+  if (kind == CellLawKind::invariants) {
+    m.energy = {RubberLaw::mooney_rivlin, VolumetricLaw::quadratic, {0.3}};
+    m.volumetric = 1e4;
+  }
+  if (kind == CellLawKind::stretches) {
+    m.energy = {RubberLaw::ogden, VolumetricLaw::logarithmic, {0.2, 4.0, 0.8, -2.0}};
+    m.volumetric = 9.1e3;
+  }
   return m;
 }
 

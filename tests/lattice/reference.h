@@ -127,7 +127,7 @@ Number hyperelastic_density(const CellMaterial& m, const Field<Number>& u, const
   const Number J = F.determinant(), I1 = C.trace(), log_J = std::log(J);
   const Number I2 = 0.5 * (I1 * I1 - sum_of_squares(C));
   const auto& s = m.energy.shape;
-  const double G = m.shear, k = m.energy.volumetric;
+  const double G = m.shear, k = m.volumetric;
   if (m.kind == CellLawKind::invariants) {
     const Number a = std::exp(-2.0 / 3.0 * log_J);
     return 0.5 * G * (1.0 - s[0]) * (a * (I1 + excess) - 3.0) +
