@@ -31,7 +31,7 @@ std::vector<FitBranch> held_at(const std::vector<FitBranch>& branches, const Vec
 FadingForce::FadingForce(const std::vector<FitBranch>& branches, const VectorXd& parameters)
     : parameters_(parameters.size()) {
   const meshes::Relaxation relaxation = relaxation_in(branches, parameters);
-  const double instant = relaxation.instant();
+  const double instant = relaxation.instantaneous_ratio();
   for (std::size_t i = 0; i < branches.size(); ++i) {
     Branch& own = own_.emplace_back();
     own.excess = relaxation.excess(i);

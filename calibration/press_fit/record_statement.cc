@@ -150,7 +150,7 @@ std::string fading(const FitRecord& record) {
     text += std::string(&branch == relaxation.branches.data() ? " " : " and ") +
             percent(branch.share) + " in " + rounded(branch.time, 3) + " s";
   text += ": what is found holds after long times, at once it is " +
-          rounded(relaxation.instant(), 4) + " times stiffer.";
+          rounded(relaxation.instantaneous_ratio(), 4) + " times stiffer.";
   if (!record.observed_times) return text;
   for (const std::string& open : open_branches(relaxation, *record.observed_times))
     text += " Not told by the data: " + open + ".";

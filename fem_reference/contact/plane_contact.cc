@@ -109,9 +109,9 @@ Eigen::VectorXd PlaneContact::in_plane_axes(const Eigen::VectorXd& values) const
   return result;
 }
 
-PlaneContact::Facing PlaneContact::facing(const meshes::Vector3& rest,
-                                          const meshes::Vector3& displacement,
-                                          const PlanePose& pose) const {
+PlaneContact::GapAndNormal PlaneContact::gap_and_normal(const meshes::Vector3& rest,
+                                                        const meshes::Vector3& displacement,
+                                                        const PlanePose& pose) const {
   const meshes::Vector3 out(0.0, 0.0, -1.0);
   const double over = pose.height - rest.z() - displacement.z();
   if (!curved()) return {over - height(obstacle_, {rest.x() - pose.shift, rest.y(), 0.0}), out};
@@ -122,14 +122,14 @@ PlaneContact::Facing PlaneContact::facing(const meshes::Vector3& rest,
 
 double PlaneContact::reach(std::size_t node) const {
   if (curved()) return frames_[node].reach;
-  return facing(node, meshes::Vector3::Zero(), trial_.pose).gap;
+  return gap_and_normal(node, meshes::Vector3::Zero(), trial_.pose).gap;
 }
 
 double PlaneContact::linearise(const Eigen::VectorXd& displacement, const PlanePose& pose) {
   double largest = 0.0;
   for (std::size_t node = 0; node < frames_.size(); ++node) {
     const meshes::Vector3 at = of_node(node, displacement);
-    const Facing now = facing(node, at, pose);
+    const GapAndNormal now = gap_and_normal(node, at, pose);
     // The shortest turn: in a plane of symmetry, which holds the normal, it is about the axis
     // across.
     Frame& frame = frames_[node];
@@ -239,7 +239,7 @@ void PlaneContact::anchor(std::size_t node, const Eigen::VectorXd& trial, double
   const meshes::Vector3 start = of_node(node, committed_.displacement);
   meshes::Vector3 place = start + time * (of_node(node, trial) - start);
   // On the obstacle: of what is curved, the way there is not quite straight.
-  const Facing left = facing(node, place, pose);
+  const GapAndNormal left = gap_and_normal(node, place, pose);
   place -= left.gap * left.normal;
   trial_.anchors[node] = {place.x() - pose.shift, place.y(), place.z() - pose.height};
 }

@@ -109,7 +109,7 @@ class PlaneContact {
   /// Of any place of the tip at a displacement, plane axes [m].
   double gap(const meshes::Vector3& rest, const meshes::Vector3& displacement,
              const PlanePose& pose) const {
-    return facing(rest, displacement, pose).gap;
+    return gap_and_normal(rest, displacement, pose).gap;
   }
 
   /// What a checkpoint needs to restore the committed state.
@@ -125,18 +125,18 @@ class PlaneContact {
 
  private:
   /// Gap of a node [m] and its gradient, at a displacement in plane axes.
-  struct Facing {
+  struct GapAndNormal {
     double gap;
     meshes::Vector3 normal;
   };
-  Facing facing(const meshes::Vector3& rest, const meshes::Vector3& displacement,
-                const PlanePose& pose) const;
-  Facing facing(std::size_t node, const meshes::Vector3& displacement,
-                const PlanePose& pose) const {
-    return facing(unknowns_.nodes[node].position, displacement, pose);
+  GapAndNormal gap_and_normal(const meshes::Vector3& rest, const meshes::Vector3& displacement,
+                              const PlanePose& pose) const;
+  GapAndNormal gap_and_normal(std::size_t node, const meshes::Vector3& displacement,
+                              const PlanePose& pose) const {
+    return gap_and_normal(unknowns_.nodes[node].position, displacement, pose);
   }
   double gap(std::size_t node, const Eigen::VectorXd& displacement, const PlanePose& pose) const {
-    return facing(node, of_node(node, displacement), pose).gap;
+    return gap_and_normal(node, of_node(node, displacement), pose).gap;
   }
   /// The third component along the axes of a node at which it touches [m].
   double reach(std::size_t node) const;

@@ -182,7 +182,7 @@ void HookeKernel<dim>::integrate(const dealii::FEValues<dim>& values,
   const Eigen::MatrixXd& divergences = revolved ? divergences_ : gradients_;
   products_.noalias() = gradients_ * gradients_.transpose();
   Eigen::MatrixXd& k = result.matrix;
-  if (volumetric_ == Volumetric::projected) {
+  if (volumetric_ == Volumetric::mean_dilatation) {
     const Eigen::MatrixXd projected = divergences * roots.asDiagonal() * volumetric_basis(values);
     k.noalias() = lambda_ * (projected * projected.transpose());
   } else if (revolved) {
@@ -213,7 +213,7 @@ void HyperelasticKernel<dim>::integrate(const dealii::FEValues<dim>& values,
                                         const Eigen::VectorXd& displacement, Parts parts,
                                         ElementSystem& result) {
   const Index nodes = node_count(values), points = point_count(values);
-  const bool projects = volumetric_ == Volumetric::projected;
+  const bool projects = volumetric_ == Volumetric::mean_dilatation;
   fill_slopes(values, slopes_);
   using NodeRows = Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor>;
   const Eigen::MatrixXd changes =

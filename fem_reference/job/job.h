@@ -33,8 +33,9 @@ enum class Analysis {
 
 /// How the volumetric part of the energy is integrated.
 enum class Volumetric {
-  pointwise,  ///< at every quadrature point: the plain displacement element
-  projected,  ///< its dilatation projected, element by element, on polynomials one degree lower
+  pointwise,        ///< at every quadrature point: the plain displacement element
+  mean_dilatation,  ///< its dilatation projected, element by element, on polynomials one degree
+                    ///< lower
 };
 
 /// Whether a press along the axis is computed on the meridian of the body of revolution.
@@ -62,7 +63,7 @@ struct ReferenceJob {
   Symmetry symmetry = Symmetry::automatic;
   int modes = 10;  ///< how many, lowest first
   int degree = 2;  ///< polynomial degree of the elements, 1, 2 or 3
-  Volumetric volumetric = Volumetric::projected;
+  Volumetric volumetric = Volumetric::mean_dilatation;
   double refinement = 0.5;     ///< factor on the element counts of the first mesh, 0.25 ... 4
   double tolerance = 5e-3;     ///< wanted force_error over normal_force, at every sample
   double max_unknowns = 4e5;   ///< no mesh beyond this many is tried
@@ -120,7 +121,7 @@ constexpr auto values(Analysis) {
                     Analysis::verification};
 }
 constexpr auto values(Volumetric) {
-  return std::array{Volumetric::pointwise, Volumetric::projected};
+  return std::array{Volumetric::pointwise, Volumetric::mean_dilatation};
 }
 constexpr auto values(Symmetry) {
   return std::array{Symmetry::automatic, Symmetry::axisymmetric, Symmetry::none};

@@ -82,7 +82,7 @@ class NodalStress {
  public:
   NodalStress(const Body<dim>& body, const ReferenceJob& job)
       : law_(job),
-        projected_(job.volumetric == Volumetric::projected),
+        projected_(job.volumetric == Volumetric::mean_dilatation),
         inside_(body.mapping, body.fine.element, dealii::QGauss<dim>(unsigned(body.degree()) + 1),
                 dealii::update_values | dealii::update_gradients |
                     dealii::update_quadrature_points | dealii::update_JxW_values),

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// Meshes whose spacing at a sample's contact edge differs by less than this factor count as one.
-constexpr double least_refinement = 1.2;
+constexpr double min_refinement = 1.2;
 
 /// Excess of a mesh's energy over its indicator (MeshHistory::error), with a factor of safety of
 /// two.
@@ -139,7 +139,7 @@ ForceError MeshHistory::edge_error(std::size_t index) const {
     const PressState& state = record.states[index];
     const MeshForce next{std::pow(state.node_spacing, -3.0), state.sample.normal_force};
     const bool finer =
-        sequence.empty() || std::cbrt(next.unknowns / sequence.back().unknowns) > least_refinement;
+        sequence.empty() || std::cbrt(next.unknowns / sequence.back().unknowns) > min_refinement;
     if (finer)
       sequence.push_back(next);
     else
@@ -166,7 +166,7 @@ std::vector<double> MeshHistory::relative_errors() const {
   std::vector<double> errors;
   for (const PressState& state : states) {
     const double force = state.sample.normal_force, error = state.sample.force_error,
-                 least = least_share_ * largest;
+                 least = min_share_ * largest;
     constexpr double none = 1e-3;  // of that, a force is round-off where it should vanish
     const bool vanishes = error == 0.0 || (std::isnan(error) && force < none * least);
     errors.push_back(vanishes ? 0.0 : error / std::max(force, least));

@@ -21,10 +21,10 @@ struct MeshRecord {
 /// The sequence of meshes, coarse to fine.
 class MeshHistory {
  public:
-  /// `safety` multiplies every error of a mesh. Forces below `least_share` of the largest need not
+  /// `safety` multiplies every error of a mesh. Forces below `min_share` of the largest need not
   /// be known better than one of that size: where a press ends unloaded, or nearly.
-  explicit MeshHistory(double safety = 1.0, double least_share = 0.0)
-      : safety_(safety), least_share_(least_share) {}
+  explicit MeshHistory(double safety = 1.0, double min_share = 0.0)
+      : safety_(safety), min_share_(min_share) {}
   /// What the steps in time add to the errors, over the forces of the samples; none at first.
   void set_step_errors(std::vector<double> errors) { step_errors_ = std::move(errors); }
   const std::vector<double>& step_errors() const { return step_errors_; }
@@ -70,7 +70,7 @@ class MeshHistory {
   double typical_edge_error() const;
 
   std::vector<MeshRecord> meshes_;
-  double safety_, least_share_;
+  double safety_, min_share_;
   std::vector<double> step_errors_;
 };
 

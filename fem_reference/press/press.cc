@@ -22,11 +22,11 @@ struct Steps {
   double first, growth, longest, of_relaxing = ContinuumPress::usual_relaxing_step;
 };
 /// Where a node first touches is remembered: at nu = 0.49 steps twice as long are off by 0.15 %.
-constexpr Steps remembered = {0.1, 0.25, 0.01};
+constexpr Steps stick_steps = {0.1, 0.25, 0.01};
 /// Without friction only Newton's method asks for steps.
-constexpr Steps forgotten = {1.0, 1.0, 0.1};
+constexpr Steps frictionless_steps = {1.0, 1.0, 0.1};
 /// A step that does not converge is halved this often before giving up.
-constexpr int most_halvings = 6;
+constexpr int max_halvings = 6;
 
 std::unique_ptr<PressModel> make_model(const ReferenceJob& job,
                                        const std::filesystem::path& mesh_file) {
@@ -44,7 +44,7 @@ struct ContinuumPress::Implementation {
   Implementation(std::unique_ptr<PressModel> pressed, std::function<bool()> stop)
       : model(std::move(pressed)),
         stop_requested(std::move(stop)),
-        steps(frictionless() ? forgotten : remembered) {}
+        steps(frictionless() ? frictionless_steps : stick_steps) {}
 
   bool frictionless() const {
     return model->job().protocol.contact == meshes::ContactMode::frictionless;
@@ -101,7 +101,7 @@ PressState ContinuumPress::advance(double place) {
       limit = std::min(1.0, 1.5 * limit);
     } catch (const meshes::NotConverged& error) {
       self.model->abandon();
-      if (self.one_step() || limit < std::pow(0.5, most_halvings)) {
+      if (self.one_step() || limit < std::pow(0.5, max_halvings)) {
         const meshes::PressPose pose = self.model->course().at(self.model->place());
         throw meshes::NoEquilibrium("the continuum", pose.indentation, pose.lateral, error.what(),
                                     "take another first mesh (reference.refinement)");

@@ -25,11 +25,11 @@ using meshes::ContactMode;
 /// Candidates for contact reach this many depths below the pole, because thin rubber rises beside
 /// the contact before it meets the plane, the more the larger the strain.
 constexpr double linear_bulge = 1.2, finite_bulge = 2.0;
-constexpr int most_newton_iterations = 25;
+constexpr int max_newton_iterations = 25;
 /// A tangent serves again where an iteration left at most this share of the forces that were out of
 /// balance before. Not in the first two: the first finds where new nodes touch.
 constexpr double chord_progress = 0.05;
-constexpr int most_backtracks = 6;
+constexpr int max_backtracks = 6;
 /// Equilibrium: out-of-balance forces over the contact forces, at a sample and on the way to it.
 constexpr double balanced = 1e-7, nearly_balanced = 1e-4;
 /// What touches may be this many R off a curved obstacle.
@@ -191,7 +191,7 @@ void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressStat
   Vector u = displacement_;
   bool stale = true;  // the tangent
   double last = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_newton_iterations; ++iteration) {
     ++effort.newton_iterations;
     const bool new_tangent = std::exchange(stale, false);
     if (new_tangent) assemble(*body_, *kernel_, u, *system_);
@@ -217,7 +217,7 @@ void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressStat
     }();
     double factor = 1.0, norm = 0.0;
     for (int backtracks = 0;; ++backtracks, factor /= 2) {
-      if (backtracks > most_backtracks)
+      if (backtracks > max_backtracks)
         throw meshes::NotConverged("Newton's method found no step that brings equilibrium nearer");
       u = start;
       u.add(factor, full_step);
@@ -241,7 +241,7 @@ void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressStat
     last = norm;
   }
   throw meshes::NotConverged("Newton's method did not converge within " +
-                             std::to_string(most_newton_iterations) + " iterations");
+                             std::to_string(max_newton_iterations) + " iterations");
 }
 
 template <int dim>

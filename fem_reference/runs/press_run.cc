@@ -41,9 +41,9 @@ constexpr double meridian_safety = 1.2;
 /// too coarse for the error estimate, and cost as many steps as any.
 constexpr double meridian_counts = 2.0;
 /// Of the largest force of a program: smaller ones need not be known better than one of that size.
-constexpr double least_share = 0.1;
+constexpr double min_share = 0.1;
 /// Refining every element multiplies the unknowns by at most this.
-constexpr double most_growth = 8.0;
+constexpr double max_growth = 8.0;
 /// A checkpoint is written when the last one is older than this [s].
 constexpr double checkpoint_interval = 10.0;
 /// So are the tables [s].
@@ -149,7 +149,7 @@ class PressRun {
              std::isnan(worst) ? "refining the mesh"
                                : "refining the mesh: the force may be off by " + percent(worst));
       const std::size_t cells = press.mesh().cells;
-      if (most_growth * double(press.mesh().unknowns) > job_.max_unknowns) write_pictures(press);
+      if (max_growth * double(press.mesh().unknowns) > job_.max_unknowns) write_pictures(press);
       unwritten_.clear();
       if (!press.refine(refined_share, samples_to_improve())) give_up(worst);
       if (press.mesh().cells == cells)
@@ -167,7 +167,7 @@ class PressRun {
 
   MeshHistory empty_history() const {
     return MeshHistory(job_.axisymmetric() ? meridian_safety : 1.0,
-                       job_.protocol.program.empty() ? 0.0 : least_share);
+                       job_.protocol.program.empty() ? 0.0 : min_share);
   }
 
   /// How far doubled steps in time are off on the first mesh: more than the usual ones are.

@@ -31,7 +31,7 @@ constexpr std::size_t fewest_transient_meshes = 3;
 constexpr double refined_in_motion = 0.7;
 /// The transient's mesh may differ from the finest static one by this many tolerances.
 constexpr double allowed_tolerances = 2.0;
-constexpr std::size_t most_rows = 2000;
+constexpr std::size_t max_rows = 2000;
 
 class TransientRun {
  public:
@@ -242,7 +242,7 @@ class TransientRun {
 
   void write_steps() const {
     std::vector<TransientRow> rows;
-    const std::size_t stride = (steps_.size() + most_rows - 1) / most_rows;
+    const std::size_t stride = (steps_.size() + max_rows - 1) / max_rows;
     for (std::size_t i = 0; i < steps_.size(); i += stride)
       rows.push_back(
           {steps_[i].time, steps_[i].indentation, steps_[i].normal_force, steps_[i].contact_force});

@@ -20,7 +20,7 @@ using PetscMatrix = dealii::PETScWrappers::MPI::SparseMatrix;
 /// Relative change of an eigenvalue at which the iteration ends.
 constexpr double residual_tolerance = 1e-11;
 /// Restarts before the iteration gives up; a handful is usual.
-constexpr int most_restarts = 200;
+constexpr int max_restarts = 200;
 
 void check(PetscErrorCode code) {
   if (code != 0)
@@ -82,7 +82,7 @@ Solver solve(MPI_Comm communicator, const PetscMatrix& stiffness, const PetscMat
   check(EPSSetProblemType(raw, EPS_GHEP));
   check(EPSSetType(raw, EPSKRYLOVSCHUR));
   check(EPSSetDimensions(raw, count, PETSC_DEFAULT, PETSC_DEFAULT));
-  check(EPSSetTolerances(raw, residual_tolerance, most_restarts));
+  check(EPSSetTolerances(raw, residual_tolerance, max_restarts));
   check(EPSSetTarget(raw, 0.0));
   check(EPSSetWhichEigenpairs(raw, EPS_TARGET_MAGNITUDE));
   use_cholesky(raw);

@@ -11,7 +11,7 @@
 namespace fingertip::fem_reference::inline solvers {
 namespace {
 
-constexpr unsigned most_iterations = 1000;
+constexpr unsigned max_iterations = 1000;
 /// The coarse hierarchy is built anew when more than this share of the held unknowns has changed.
 constexpr double worth_rebuilding = 0.02;
 
@@ -85,7 +85,7 @@ class MultigridSolver : public FieldSolver {
     if (double(changed) <= worth_rebuilding * double(std::ranges::count(held, 1)) &&
         built_for_.size() == held.size())
       return;
-    preconditioner_->solve_constrained(held_);
+    preconditioner_->set_held(held_);
     built_for_ = held;
   }
 
@@ -98,7 +98,7 @@ class MultigridSolver : public FieldSolver {
     residual.sadd(-1.0, 1.0, load);
     matrix.project(residual);
     if (residual.l2_norm() <= tolerance_ * scale) return 0;
-    dealii::SolverControl control(most_iterations, tolerance_ * scale);
+    dealii::SolverControl control(max_iterations, tolerance_ * scale);
     dealii::SolverCG<Vector> cg(control);
     try {
       cg.solve(matrix, correction, residual, *preconditioner_);

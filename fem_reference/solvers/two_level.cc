@@ -187,7 +187,7 @@ void TwoLevelPreconditioner::smooth(Vector& x, const Vector& b) const {
   }
 }
 
-void TwoLevelPreconditioner::solve_constrained(const std::vector<char>& held) {
+void TwoLevelPreconditioner::set_held(const std::vector<char>& held) {
   projected_ = std::make_unique<ProjectedMatrix>(system_.matrix, held);
   std::vector<char> coarse_held(body_.coarse.owned.n_elements(), 0);
   for (const auto& [fine, coarse] : shared_vertices_)

@@ -36,7 +36,7 @@ class TwoLevelPreconditioner {
   /// Chooses the held unknowns, one flag per owned unknown of the fine space, and builds the
   /// coarse hierarchy for them. They are kept by
   /// reference and may change a little afterwards: the coarse level then lags behind.
-  void solve_constrained(const std::vector<char>& held);
+  void set_held(const std::vector<char>& held);
   void vmult(Vector& result, const Vector& residual) const;
 
  private:

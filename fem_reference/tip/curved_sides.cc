@@ -29,9 +29,9 @@ using meshes::PhysicalTag;
 constexpr double off_part = 1e-6;
 /// Smallest Jacobian of a cell that is not turned, over the lengths of its tangents: at hidden
 /// edges, and elsewhere, where a cell with straight sides may have 0.03.
-constexpr double least_at_edges = 0.05, least_jacobian = 0.01;
+constexpr double min_at_edges = 0.05, least_jacobian = 0.01;
 /// Newton's method for a place on parabolas, whose coordinates run from 0 to 1.
-constexpr int most_steps = 20;
+constexpr int max_steps = 20;
 constexpr double small_step = 1e-13;
 
 /// The parts of a finger that is turned about y by -`tilt`.
@@ -111,7 +111,7 @@ class ParabolaManifold : public dealii::ChartManifold<3, 3, own> {
   dealii::Point<own> pull_back(const dealii::Point<3>& place) const override {
     dealii::Point<own> chart;
     for (unsigned c = 0; c < own; ++c) chart[c] = 0.5;
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
       const dealii::Tensor<1, 3> missing = place - push_forward(chart);
       Eigen::Matrix<double, 3, own> slope = Eigen::Matrix<double, 3, own>::Zero();
       for (unsigned i = 0; i < nodes_.size(); ++i) {
@@ -257,7 +257,7 @@ class BoundarySides {
     std::set<int> turned;
     for (const auto& cell : divided.cell_iterators_on_level(0)) {
       if (!cells.contains(cell->index())) continue;
-      const double least = at_edges.contains(cell->index()) ? least_at_edges : least_jacobian;
+      const double least = at_edges.contains(cell->index()) ? min_at_edges : least_jacobian;
       bool any = is_turned(cell, least);
       for (unsigned c = 0; c < cell->n_children(); ++c) any |= is_turned(cell->child(c), least);
       if (any) turned.insert(cell->index());

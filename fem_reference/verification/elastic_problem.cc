@@ -195,7 +195,7 @@ class MeshedProblem final : public ElasticModel {
         dilatation[Eigen::Index(q)] = states[q].gradient.trace();
         weights[Eigen::Index(q)] = weight<dim>(values, unsigned(q));
       }
-      if (volumetric_ == Volumetric::projected) {
+      if (volumetric_ == Volumetric::mean_dilatation) {
         const Eigen::MatrixXd basis =
             ElementPolynomials<dim>(values, body_.degree() - 1).at(values.get_quadrature_points());
         dilatation = basis * (basis.transpose() * weights.cwiseProduct(dilatation));

@@ -18,7 +18,7 @@ namespace fingertip::fem_reference::inline verification {
 /// Polynomial degree and volumetric treatment.
 struct ElementType {
   int degree = 2;
-  Volumetric volumetric = Volumetric::projected;
+  Volumetric volumetric = Volumetric::mean_dilatation;
 };
 
 /// Relative errors over the body: of the displacement in L2 and of its gradient in L2 (the H1

@@ -12,8 +12,8 @@ namespace fingertip::fem_reference::inline verification {
 namespace {
 
 constexpr std::array elements{
-    ElementType{1, Volumetric::pointwise}, ElementType{1, Volumetric::projected},
-    ElementType{2, Volumetric::pointwise}, ElementType{2, Volumetric::projected},
+    ElementType{1, Volumetric::pointwise}, ElementType{1, Volumetric::mean_dilatation},
+    ElementType{2, Volumetric::pointwise}, ElementType{2, Volumetric::mean_dilatation},
     ElementType{3, Volumetric::pointwise}};
 
 LockingPoint point(const char* problem, const ElementType& element, double poissons_ratio,
@@ -76,7 +76,7 @@ std::vector<LockingPoint> lock_press(const std::vector<double>& poissons_ratios,
   const std::filesystem::path mesh = folder / verification_mesh;
   write_mesh_once({}, options.refined(0.6), mesh);
   for (const double nu : poissons_ratios)
-    finest.push_back(press_force({2, Volumetric::projected}, nu, mesh));
+    finest.push_back(press_force({2, Volumetric::mean_dilatation}, nu, mesh));
   write_mesh_once({}, options.refined(0.4), mesh);
   std::vector<LockingPoint> points;
   for (std::size_t i = 0; i < poissons_ratios.size(); ++i)

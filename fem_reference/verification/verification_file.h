@@ -13,7 +13,7 @@ namespace fingertip::fem_reference::inline verification {
 struct ConvergenceStudy {
   std::string problem;
   int degree = 0;
-  Volumetric volumetric = Volumetric::projected;
+  Volumetric volumetric = Volumetric::mean_dilatation;
   double poissons_ratio = 0.0;
   struct Mesh {
     double h = 0.0;         ///< edge of an element: along block or height, or through the wall [m]

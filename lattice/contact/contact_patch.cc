@@ -21,11 +21,11 @@ constexpr double highest_peak = 2.0;  ///< b
 /// Measured on domes, hollow and oval fingers under planes, balls, edges and cylinders: 1.31
 /// to 1.49, at most 1.0. A line contact has 2.4, a rectangle, too, two of them 3.8; a ring or three
 /// spots have q below 1.2.
-constexpr double least_q = 1.25, most_q = 1.75, most_uneven = 3.0;
+constexpr double min_q = 1.25, max_q = 1.75, max_uneven = 3.0;
 /// Where the points that bear have most of the ellipse's area, they miss none of their own: the
 /// least q and the largest of the other are stricter there. A flat disc has 4/3 and 0.80 of the
 /// area, a rectangle 7/5 and 0.76.
-constexpr double most_of_area = 0.75, least_q_there = 1.36, most_uneven_there = 1.5;
+constexpr double most_of_area = 0.75, min_q_there = 1.36, max_uneven_there = 1.5;
 /// Second moment of a point's own patch over that of the pressure, along the narrower axis, where
 /// points are enough: on a flat disc 200. Of fewer the moments are chance: on round fingers from
 /// 0.007 on they looked like no ellipse.
@@ -137,8 +137,8 @@ ContactPatch contact_patch(const ForceMoments& moments, int sectors) {
   if (!is_line && own < fine_enough * spread.selfadjointView<Eigen::Lower>().eigenvalues()[0]) {
     const double uneven = std::abs(central.fourth(0)) + std::abs(central.fourth(1));
     const bool flat = sums.touched > most_of_area * area;
-    if (q < (flat ? least_q_there : least_q) || q > most_q ||
-        uneven > (flat ? most_uneven_there : most_uneven))
+    if (q < (flat ? min_q_there : min_q) || q > max_q ||
+        uneven > (flat ? max_uneven_there : max_uneven))
       return {std::sqrt(sums.touched / std::numbers::pi), meshes::unknown};
   }
   return {std::sqrt(square), force * (1.0 + peak) / (area * profile.zeroth)};

@@ -10,8 +10,8 @@ using meshes::Vector3;
 
 namespace {
 
-constexpr double most_turns = 64.0;     // steps until every point has had its turn
-constexpr double most_turns_off = 7.0;  // that a point far away lets pass
+constexpr double max_turns = 64.0;      // steps until every point has had its turn
+constexpr double max_skip_count = 7.0;  // that a point far away lets pass
 
 // The same for any number of threads.
 constexpr std::size_t near_portion = 32;    // near particles per partial sum
@@ -57,7 +57,7 @@ PenaltyContact::PenaltyContact(const LatticeModel& model, const Plane& plane, co
       margin_(0.5 * model.spacing()),
       memory_(shape_->groups.size()),
       is_near_(shape_->groups.size(), 0),
-      turns_off_(shape_->groups.size(), 0),
+      skip_count_(shape_->groups.size(), 0),
       found_(shape_->groups.size()),
       loads_(shape_->groups.size()),
       near_groups_(shape_->particles.size(), 0),
@@ -68,7 +68,7 @@ PenaltyContact::PenaltyContact(const LatticeModel& model, const Plane& plane, co
   near_particles_.reserve(shape_->particles.size());
   held_.reserve(shape_->particles.size());
   const State rest(model);
-  look_around(arrays(rest, plane, 0.0, {}), shape_->groups.size());
+  broad_phase(arrays(rest, plane, 0.0, {}), shape_->groups.size());
 }
 
 kernel::GapKind PenaltyContact::gap_kind() const {
@@ -107,7 +107,7 @@ kernel::ContactArrays PenaltyContact::arrays(const State& state, const Plane& no
 }
 
 /// Groups that have come near are looked at in every step from now on.
-void PenaltyContact::look_around(const kernel::ContactArrays& arrays, std::size_t looks) {
+void PenaltyContact::broad_phase(const kernel::ContactArrays& arrays, std::size_t looks) {
   const std::size_t first = next_look_, count = is_near_.size();
   looks = std::min(looks, count);
   constexpr std::uint8_t came = 2;
@@ -115,8 +115,8 @@ void PenaltyContact::look_around(const kernel::ContactArrays& arrays, std::size_
     for (std::size_t n = begin; n < end; ++n) {
       const std::size_t group = (first + n) % count;
       if (is_near_[group] != 0) continue;
-      if (turns_off_[group] > 0) {
-        --turns_off_[group];
+      if (skip_count_[group] > 0) {
+        --skip_count_[group];
         continue;
       }
       // Where points were when last looked at tells apply() where they crossed, had they come this
@@ -124,7 +124,7 @@ void PenaltyContact::look_around(const kernel::ContactArrays& arrays, std::size_
       const double gap = kernels_->look(arrays, margin_, group);
       if (gap < margin_) is_near_[group] = came;
       // From one turn to the next it comes nearer by half a margin at most.
-      turns_off_[group] = std::uint8_t(std::clamp(gap / margin_ - 1.0, 0.0, most_turns_off));
+      skip_count_[group] = std::uint8_t(std::clamp(gap / margin_ - 1.0, 0.0, max_skip_count));
     }
   });
   for (std::size_t n = 0; n < looks; ++n) {
@@ -286,10 +286,10 @@ std::size_t PenaltyContact::looks_per_step(const State& state, double step) {
   const double turning = plane_.normal.cross(plane_.angular_velocity).norm();
   closing += std::max(
       0.0, plane_.normal.dot(plane_.velocity_at(shape_->centre)) + turning * shape_->reach);
-  const double turns = std::min(0.5 * margin_ / (closing * step), most_turns);
-  if (!(step > 0.0 && turns >= 1.0 && strayed_ < 0.1 * margin_)) {
-    std::fill(turns_off_.begin(), turns_off_.end(), std::uint8_t{0});
-    strayed_ = 0.0;
+  const double turns = std::min(0.5 * margin_ / (closing * step), max_turns);
+  if (!(step > 0.0 && turns >= 1.0 && drift_ < 0.1 * margin_)) {
+    std::fill(skip_count_.begin(), skip_count_.end(), std::uint8_t{0});
+    drift_ = 0.0;
     return is_near_.size();
   }
   return std::size_t(double(is_near_.size()) / std::floor(turns)) + 1;
@@ -303,10 +303,10 @@ double PenaltyContact::distance(const Plane& plane) const {
 
 Wrench PenaltyContact::add(const State& state, const Plane& plane, double step, VectorField& force,
                            std::vector<SharedLoad>* shared, const Pose& rod) {
-  strayed_ += distance(plane);
+  drift_ += distance(plane);
   plane_ = plane.after(step);
   const kernel::ContactArrays all = arrays(state, plane, step, rod);
-  if (!is_trial_) look_around(all, looks_per_step(state, step));
+  if (!is_trial_) broad_phase(all, looks_per_step(state, step));
   apply_near(all);
   return unload(state, step, force, shared);
 }

@@ -91,7 +91,7 @@ class PenaltyContact {
  private:
   kernel::GapKind gap_kind() const;
   kernel::ContactArrays arrays(const State& state, const Plane& now, double step, const Pose& rod);
-  void look_around(const kernel::ContactArrays& arrays, std::size_t looks);
+  void broad_phase(const kernel::ContactArrays& arrays, std::size_t looks);
   void enter(std::uint32_t group);
   void forget_near();
   void apply_near(const kernel::ContactArrays& arrays);
@@ -116,8 +116,8 @@ class PenaltyContact {
   std::vector<kernel::ContactMemory> memory_;  ///< per group
   std::vector<std::uint8_t> is_near_;          ///< per group: looked at in every step
   std::vector<std::uint32_t> near_;            ///< groups that are near, in the order they came
-  std::vector<std::uint8_t> turns_off_;        ///< per group: how many it lets pass, being far
-  double strayed_ = 0.0;  ///< how far the plane moved but by its velocities, since all looked [m]
+  std::vector<std::uint8_t> skip_count_;       ///< per group: how many it lets pass, being far
+  double drift_ = 0.0;  ///< how far the plane moved but by its velocities, since all looked [m]
   std::size_t next_look_ = 0;
   bool is_trial_ = false;
   std::vector<kernel::GroupFindings> found_;   ///< per group, of the last add(); nothing if far

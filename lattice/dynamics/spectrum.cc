@@ -228,7 +228,7 @@ SpectralBounds spectral_bounds(const LatticeModel& model, const RodBody* rod) {
   SpectralBounds bounds;
   find_retardation_times(model, bounds);
   const double stiffness = bound(model, Quantity::stiffness, rod);
-  bounds.stiffness = model.relaxation.instant() * stiffness;
+  bounds.stiffness = model.relaxation.instantaneous_ratio() * stiffness;
   bounds.damping = uniformly_damped(bounds) ? bounds.longest_retardation * stiffness
                                             : bound(model, Quantity::damping, rod);
   return bounds;
@@ -252,7 +252,7 @@ SpectralBounds spectral_estimate(const LatticeModel& model, const State& at, int
     ScaledOperator damping_operator(model, at, Quantity::damping);
     estimate.damping = lanczos(damping_operator, steps);
   }
-  estimate.stiffness *= model.relaxation.instant();
+  estimate.stiffness *= model.relaxation.instantaneous_ratio();
   return estimate;
 }
 

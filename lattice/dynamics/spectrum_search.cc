@@ -213,14 +213,14 @@ void SpectrumSearch::apply(Memory& memory) {
 void SpectrumSearch::finish_quantity(Memory& memory) {
   const Ritz best = ritz(memory.projected, vectors);
   if (memory.quantity == 0) {
-    memory.found.stiffness = model_->relaxation.instant() * best.values[0];
+    memory.found.stiffness = model_->relaxation.instantaneous_ratio() * best.values[0];
   } else {
     memory.found.damping = best.values[0];
   }
   MatrixXd& kept = memory.kept[memory.quantity];
-  kept.resize(rows(), most_kept);
+  kept.resize(rows(), max_kept);
   in_portions(rows(), [&](Index, Index first, Index size) {
-    for (Index k = 0; k < most_kept; ++k) {
+    for (Index k = 0; k < max_kept; ++k) {
       kept.col(k).segment(first, size).noalias() =
           memory.basis.middleRows(first, size) * best.vectors.col(k);
     }

@@ -18,8 +18,8 @@ namespace fingertip::lattice {
 /// Krylov chain that starts from what the uppermost lacks to be an eigenvector and from noise, so
 /// that modes which rise elsewhere are seen. The values come from below.
 class SpectrumSearch {
-  static constexpr int vectors = 10;   ///< of a search, per quantity
-  static constexpr int most_kept = 3;  ///< for the next one
+  static constexpr int vectors = 10;  ///< of a search, per quantity
+  static constexpr int max_kept = 3;  ///< for the next one
   /// In storage of its own size.
   using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, vectors, 1>;
   using Projection = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, vectors, vectors>;

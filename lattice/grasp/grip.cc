@@ -12,7 +12,7 @@ namespace {
 constexpr double settled_error = 3e-3;  // of the wanted force ...
 constexpr double settled_time = 0.020;  // ... for so long [s]
 constexpr double change_time = 0.020;   // within which a speed may change by its limit [s]
-constexpr double least_rise = 0.05;     // of the lift's speed in the load phase
+constexpr double min_rise = 0.05;       // of the lift's speed in the load phase
 constexpr double let_go = 0.05;         // share of the grip force at which releasing ends
 
 double towards(double wanted, double last, double most) {
@@ -123,7 +123,7 @@ double GripControl::closing_speed(const GripFeeling& feeling) const {
 
 double GripControl::rising_speed(const GripFeeling& feeling) const {
   if (phase_ == GripPhase::load) {
-    return settings_.lift_speed * std::clamp(1.0 - feeling.load, least_rise, 1.0);
+    return settings_.lift_speed * std::clamp(1.0 - feeling.load, min_rise, 1.0);
   }
   if (phase_ != GripPhase::lift) return 0.0;
   // The speed wanted is that at the end of the coming period.

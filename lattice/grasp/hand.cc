@@ -42,8 +42,8 @@ Hand::Hand(const HandSetup& setup, double period)
   }
   step_ = fingers_[0]->step_report(period).step;
   coupling_ = find_coupling();
-  if (!(coupling_ < most_coupling)) {
-    const double least = setup.block.mass * coupling_ / most_coupling;
+  if (!(coupling_ < max_coupling)) {
+    const double least = setup.block.mass * coupling_ / max_coupling;
     throw meshes::InvalidInput(
         {"grasp.block_mass", meshes::to_text(setup.block.mass) + " kg",
          "the block must outweigh the rubber that touches it: at this spacing at least " +

@@ -30,7 +30,7 @@ struct HandSetup {
 /// Once the fingers pull harder than the block weighs the block is free, and stays so.
 class Hand {
  public:
-  /// Throws InvalidInput for a block too light for the step (coupling() >= most_coupling) and for
+  /// Throws InvalidInput for a block too light for the step (coupling() >= max_coupling) and for
   /// what VirtualFinger refuses. `period` [s] is a multiple of step().
   Hand(const HandSetup& setup, double period);
 
@@ -63,7 +63,7 @@ class Hand {
   /// rho(M⁻¹ M_c), M the 6 x 6 mass matrix of the block and M_c that of the particles that may
   /// touch it (README: light blocks). Fingers and block are stable together below 1.
   double coupling() const { return coupling_; }
-  static constexpr double most_coupling = 1.0;
+  static constexpr double max_coupling = 1.0;
 
  private:
   double find_coupling() const;

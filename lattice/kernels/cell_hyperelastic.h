@@ -26,7 +26,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
     /// Not below the largest eigenvalue of d²W/dF² over plane waves, less G; with 2 lambda g and
     /// `beyond` more not below those over all dF.
     Pack tangent, beyond;
-    Pack room;  ///< 1, or what is left of a gent law's stretch; not positive: beyond it
+    Pack margin;  ///< 1, or what is left of a gent law's stretch; not positive: beyond it
   };
 
   [[gnu::always_inline]] static Symmetric right_cauchy_green(const Rows& F) {
@@ -67,7 +67,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
 
   /// W/G of a law of invariants, by I1 - 3: with dW/dI1, dW/dI2, d²W/dI1².
   struct Slopes {
-    Pack energy, first, second, curvature, room;
+    Pack energy, first, second, curvature, margin;
   };
   [[gnu::always_inline]] static Slopes slopes(const meshes::StrainEnergy& law, const Pack& x) {
     const Pack half = 0.5, none = 0.0, one = 1.0;
@@ -101,7 +101,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
     return sum;
   }
 
-  /// `excess`: bending/G q:Omega:q. `T`: F⁻ᵀ.
+  /// `excess`: mu_h/G q:Omega:q. `T`: F⁻ᵀ.
   [[gnu::always_inline]] static Answer of_invariants(const CellMaterial& m, const Rows& F,
                                                      const Rows& T, const Pack& J,
                                                      const Pack& excess) {
@@ -124,7 +124,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
       along += second * (square + excess * third);
     }
     Answer answer;
-    answer.room = d.room;
+    answer.margin = d.margin;
     answer.modes = (first + second * square * third) / G;
     answer.S = {along, along, along, Pack(0.0), Pack(0.0), Pack(0.0)};
     if (two) {
@@ -262,7 +262,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
                    : p.tau[k] + half * p.slope[k];
     }
     Answer answer;
-    answer.room = 1.0;
+    answer.margin = 1.0;
     answer.modes = chi;
     answer.pressure = v.pressure - (law.isochoric() ? Pack(0.0) : Pack(reaction(law)) * G);
     const Pack along[3] = {G * tau[0] * root[0], G * tau[1] * root[1], G * tau[2] * root[2]};
@@ -325,10 +325,10 @@ struct Hyperelastic : PackAlgebra<Pack> {
     }
   }
 
-  /// Per volume; `room` as above. `H`: F - 1.
+  /// Per volume; `margin` as above. `H`: F - 1.
   template <CellLawKind Kind>
   static Pack energy(const CellMaterial& m, const Rows& H, const Pack& J, const Pack& excess,
-                     Pack& room) {
+                     Pack& margin) {
     const meshes::StrainEnergy& law = m.energy;
     const Pack G = m.shear, log_J = Algebra::log(J), third = Pack(1.0 / 3.0);
     const Pack rest = law.isochoric() ? Pack(0.0) : Pack(reaction(law)) * log_J;
@@ -340,7 +340,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
       Pack log_l[3];
       for (int k = 0; k < 3; ++k) log_l[k] = Pack(0.5) * Algebra::log(square[k]) - mean;
       const Powers p = powers(law, log_l, Algebra::exp(Pack(-2.0) * mean));
-      room = 1.0;
+      margin = 1.0;
       return G * (p.energy - rest + Pack(0.5) * excess * (p.power[0] + p.power[1] + p.power[2])) +
              volumetric;
     } else {
@@ -350,7 +350,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
                  less = law.isochoric() ? Algebra::expm1(Pack(-2.0 / 3.0) * log_J) : Pack(0.0),
                  a = Pack(1.0) + less;
       const Slopes d = slopes(law, a * (trace + excess) + Pack(3.0) * less);
-      room = d.room;
+      margin = d.margin;
       Pack sum = d.energy - rest;
       if (law.law == Law::mooney_rivlin) {
         const Pack squares = D.xx * D.xx + D.yy * D.yy + D.zz * D.zz +

@@ -179,8 +179,8 @@ struct CellBody : CellResponse<Pack> {
       Pack area = 0.25 * a.spacing * a.spacing;
       if constexpr (!Whole) area = area * cut.fraction();
       if constexpr (task.stores) {
-        Pack room;  // known by the extremes
-        stored[chunk] = stored[chunk] + energy_of<Law, Whole>(a, area, u, room);
+        Pack margin;  // known by the extremes
+        stored[chunk] = stored[chunk] + energy_of<Law, Whole>(a, area, u, margin);
       }
       if constexpr (Law == CellLawKind::cubic) {
         Response::template answer_cubic<Whole>(m, area, u, take);
@@ -267,10 +267,10 @@ struct CellBody : CellResponse<Pack> {
     const Pack J = dot(F.x, cross(F.y, F.z));
     if constexpr (Law == CellLawKind::volume) return Response::volume_energy(m, volume, J);
     if constexpr (Law == CellLawKind::invariants || Law == CellLawKind::stretches) {
-      Pack room;
+      Pack margin;
       const Pack density = Hyperelastic<Pack>::template energy<Law>(
-          m, H, J, Response::template excess_of<Whole>(m, area, u), room);
-      smallest_jacobian = min(smallest_jacobian, min(J, room));
+          m, H, J, Response::template excess_of<Whole>(m, area, u), margin);
+      smallest_jacobian = min(smallest_jacobian, min(J, margin));
       return volume * density;
     }
     const Pack modes = Pack(2.0 * a.spacing) *

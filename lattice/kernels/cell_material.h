@@ -11,18 +11,18 @@ namespace fingertip::lattice {
 /// What a cell stores per volume of its rubber, as a function of the mean F = 1 + H of dx/dX over
 /// that rubber and of its bilinear modes q (README of this folder):
 ///
-///   cubic    ½ eps:C:eps + ½ bending q:Omega:q           small strain, eps = (H + Hᵀ)/2
+///   cubic    ½ eps:C:eps + ½ mu_h q:Omega:q              small strain, eps = (H + Hᵀ)/2
 ///   volume   kappa/2 (J - 1)²                            beside central springs, J = det F
-///   network  law A + ½ bending q:Omega:q, law A = G/2 (|F|² - 3) - G ln J + lambda/2 (ln J)²
+///   network  law A + ½ mu_h q:Omega:q, law A = G/2 (|F|² - 3) - G ln J + lambda/2 (ln J)²
 ///   invariants, stretches
 ///            W(F, excess) of any other law of large strain (meshes/rubber/hyperelastic_law.h), by
-///            invariants of F or by its principal stretches; excess = bending/G q:Omega:q, so that
+///            invariants of F or by its principal stretches; excess = mu_h/G q:Omega:q, so that
 ///            fibres are springs whose constant grows with the cell's stretch, for laws of I1 as
 ///            2 W'(I1)/G
 ///
 /// Damping (Kelvin-Voigt): `cubic` sees u + tau v instead of u. Laws of large strain add, with L
 /// the mean velocity gradient dv/dx and D its symmetric part, the Kirchhoff stress tau (lambda tr D
-/// + 2 G D) and on the bilinear modes bending tau Omega (dq/dt - L q); `volume` adds to dW/dF the
+/// + 2 G D) and on the bilinear modes mu_h tau Omega (dq/dt - L q); `volume` adds to dW/dF the
 /// stress tau kappa dJ/dt cof F. All are objective, so no rigid motion of a deformed cell is
 /// damped, and equal to tau times the stiffness at rest.
 enum class CellLawKind { cubic, volume, network, invariants, stretches };
@@ -34,8 +34,8 @@ struct CellMaterial {
   double shear = 0.0, lambda = 0.0;        ///< network and beyond: G > 0, lambda at rest [Pa]
   meshes::StrainEnergy energy;             ///< invariants, stretches
   double volumetric = 0.0;                 ///< of these m, of their m/2 h(J)² [Pa]
-  double bending = 0.0;  ///< modulus of the bilinear modes, the fibres' share of C44 or G [Pa]
-  double retardation_time = 0.0;  ///< tau [s], not negative
+  double hourglass_modulus = 0.0;          ///< mu_h, the fibres' share of C44 or G [Pa]
+  double retardation_time = 0.0;           ///< tau [s], not negative
 
   struct Cubic {
     double c11, c12, c44;
@@ -62,7 +62,7 @@ struct CellMaterial {
   /// Whether nothing is stored, whatever the deformation.
   bool none() const {
     const auto [a, b, c] = at_rest();
-    return a == 0.0 && b == 0.0 && c == 0.0 && bending == 0.0;
+    return a == 0.0 && b == 0.0 && c == 0.0 && hourglass_modulus == 0.0;
   }
 };
 

@@ -87,7 +87,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   [[gnu::always_inline]] static Modes bend(const CellMaterial& m, const Pack& area,
                                            const Modes& q) {
     if constexpr (Whole) {
-      const Pack linear = area * Pack(m.bending), bilinear = Pack(2.0) * linear,
+      const Pack linear = area * Pack(m.hourglass_modulus), bilinear = Pack(2.0) * linear,
                  trilinear = Pack(3.0) * linear;
       return {bilinear * q.yz, bilinear * q.zx, bilinear * q.xy, trilinear * q.xyz};
     } else {
@@ -103,7 +103,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
             v.x * a.x.xyz + v.y * a.y.xyz + v.z * a.z.xyz};
   }
   /// By components.
-  struct Bends {
+  struct HourglassModes {
     Modes x, y, z;
   };
 
@@ -225,21 +225,22 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
     } else {
       answer = Hyperelastic::template answer<Kind>(m, F, T, J, excess_of<Whole>(m, area, u));
       pressure = answer.pressure;
-      extend(extremes, min(J, answer.room), answer.tangent, g);
+      extend(extremes, min(J, answer.margin), answer.tangent, g);
       extremes.beyond = max(extremes.beyond, answer.beyond);
     }
     typename Hyperelastic::Symmetric Q;  // what relaxes of the stress ...
-    Bends faded;                         // ... and of the modes
+    HourglassModes faded;                // ... and of the modes
     if constexpr (Fades) {
-      const Bends q{u.x.q, u.y.q, u.z.q};
-      Bends kappa, moment;
+      const HourglassModes q{u.x.q, u.y.q, u.z.q};
+      HourglassModes kappa, moment;
       Pack stiffer = 1.0;
       if constexpr (!network) stiffer = answer.modes;
       for_components([&](auto c) __attribute__((always_inline)) {
         entry<c()>(kappa) = along({entry<c()>(T.x), entry<c()>(T.y), entry<c()>(T.z)}, q);
         entry<c()>(moment) = along({entry<c()>(F.x), entry<c()>(F.y), entry<c()>(F.z)}, q);
       });
-      const auto bends = [&](const Modes& a, const Modes& b) __attribute__((always_inline)) {
+      const auto mode_products = [&](const Modes& a, const Modes& b)
+          __attribute__((always_inline)) {
         return stiffer * contract(bend<Whole>(m, area, a), b);
       };
       // The second Piola-Kirchhoff stress while F⁻¹ q stays as it is.
@@ -250,15 +251,15 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
       } else {
         R = answer.S;
       }
-      S = {area * (R.xx + pressure * S.xx) + bends(kappa.x, kappa.x),
-           area * (R.yy + pressure * S.yy) + bends(kappa.y, kappa.y),
-           area * (R.zz + pressure * S.zz) + bends(kappa.z, kappa.z),
-           area * (R.yz + pressure * S.yz) + bends(kappa.y, kappa.z),
-           area * (R.zx + pressure * S.zx) + bends(kappa.z, kappa.x),
-           area * (R.xy + pressure * S.xy) + bends(kappa.x, kappa.y)};
+      S = {area * (R.xx + pressure * S.xx) + mode_products(kappa.x, kappa.x),
+           area * (R.yy + pressure * S.yy) + mode_products(kappa.y, kappa.y),
+           area * (R.zz + pressure * S.zz) + mode_products(kappa.z, kappa.z),
+           area * (R.yz + pressure * S.yz) + mode_products(kappa.y, kappa.z),
+           area * (R.zx + pressure * S.zx) + mode_products(kappa.z, kappa.x),
+           area * (R.xy + pressure * S.xy) + mode_products(kappa.x, kappa.y)};
       Q = {past.fade(0, S.xx), past.fade(1, S.yy), past.fade(2, S.zz),
            past.fade(3, S.yz), past.fade(4, S.zx), past.fade(5, S.xy)};
-      Bends held;
+      HourglassModes held;
       for_components([&](auto c) __attribute__((always_inline)) {
         entry<c()>(held) = past.fade(6 + 4 * c(), stiffer, entry<c()>(moment));
       });
@@ -289,7 +290,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
     if constexpr (Rates) {
       read_later();
       Rows L, drag;
-      Bends h;
+      HourglassModes h;
       for_components([&](auto c) __attribute__((always_inline)) {
         const Row w = velocity(c);
         const Vector l = Algebra::times(T, w.H);
@@ -326,7 +327,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
     }
   }
 
-  /// bending/G q:Omega:q; absent cells have none.
+  /// mu_h/G q:Omega:q; absent cells have none.
   template <bool Whole>
   [[gnu::always_inline]] static Pack excess_of(const CellMaterial& m, const Pack& area,
                                                const Field& u) {

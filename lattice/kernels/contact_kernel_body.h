@@ -115,13 +115,14 @@ struct ContactBody : Packs<Pack> {
   }
 
   /// The gap of points at `place`, and its gradient.
-  struct Facing {
+  struct GapAndNormal {
     Pack gap;
     Vector normal;
   };
   template <GapKind kind>
-  [[gnu::always_inline]] static Facing facing(const ContactArrays& a, const ContactGroup& group,
-                                              const Vector& place, std::size_t lane) {
+  [[gnu::always_inline]] static GapAndNormal gap_and_normal(const ContactArrays& a,
+                                                            const ContactGroup& group,
+                                                            const Vector& place, std::size_t lane) {
     const Vector n = broadcast(a.normal);
     const Pack over = dot(n, place);
     if constexpr (kind == GapKind::flat) return {over, n};
@@ -144,7 +145,7 @@ struct ContactBody : Packs<Pack> {
     double least = 1e300;
     for (std::size_t part = 0; part < parts; ++part) {
       place[part] = places(group, then, a.then, part * width);
-      gap[part] = facing<kind>(a, group, place[part], part * width).gap;
+      gap[part] = gap_and_normal<kind>(a, group, place[part], part * width).gap;
       const double smallest = std::experimental::hmin(gap[part]);
       least = smallest < least ? smallest : least;
     }
@@ -199,8 +200,8 @@ struct ContactBody : Packs<Pack> {
   }
 
   /// Brings anchors to where slip has left them by the start of the step.
-  static void drag(const ContactArrays& a, const Vector& place, const Facing& now, std::size_t lane,
-                   ContactMemory& memory) {
+  static void return_mapping(const ContactArrays& a, const Vector& place, const GapAndNormal& now,
+                             std::size_t lane, ContactMemory& memory) {
     const Vector anchor = load(memory.anchor, lane);
     const Pack depth = -now.gap;
     const Vector stretch = anchor - place;
@@ -224,7 +225,7 @@ struct ContactBody : Packs<Pack> {
     const Pack fraction = choose(crosses, before / (before - gap), Pack(0.0));
     Vector crossing = (1.0 - fraction) * load(memory.place, lane) + fraction * place;
     if constexpr (kind == GapKind::exact) {  // not quite on a surface that is curved
-      const Facing left = facing<kind>(a, group, crossing, lane);
+      const GapAndNormal left = gap_and_normal<kind>(a, group, crossing, lane);
       crossing += -left.gap * left.normal;
     }
     store(memory.anchor, lane, choose(crosses, crossing, load(memory.anchor, lane)));
@@ -245,8 +246,8 @@ struct ContactBody : Packs<Pack> {
   };
   template <Grip grip>
   [[gnu::always_inline]] static Stretch stretches(const ContactArrays& a, const Vector& place,
-                                                  const Facing& then, const ContactMemory& memory,
-                                                  std::size_t lane) {
+                                                  const GapAndNormal& then,
+                                                  const ContactMemory& memory, std::size_t lane) {
     const Pack depth = std::experimental::max(-then.gap, Pack(0.0));
     const TiePush<Pack> push(a.law, depth);
     Stretch result{depth * then.normal, then.normal, push, push.length - depth, 0.0};
@@ -302,10 +303,10 @@ struct ContactBody : Packs<Pack> {
     for (std::size_t lane = 0; lane < lanes; lane += width) {
       if constexpr (grip == Grip::coulomb) {
         const Vector place = places(group, now, a.now, lane);
-        drag(a, place, facing<kind>(a, group, place, lane), lane, memory);
+        drag(a, place, gap_and_normal<kind>(a, group, place, lane), lane, memory);
       }
       const Vector place = places(group, then, a.then, lane);
-      const Facing ahead = facing<kind>(a, group, place, lane);
+      const GapAndNormal ahead = gap_and_normal<kind>(a, group, place, lane);
       if constexpr (grip != Grip::frictionless)
         look_at<kind>(a, group, place, ahead.gap, lane, memory);
       store(memory.place, lane, place);

@@ -21,12 +21,12 @@ using std::chrono::microseconds;
 /// waking up takes a tenth.
 constexpr microseconds patience{100};
 /// The same where others want the core.
-constexpr microseconds courtesy{5};
+constexpr microseconds yield_time{5};
 
 /// Per thread and loop. More even out loops of uneven iterations and shorten the wait for a thread
 /// that lost its core amid a piece; each costs some 20 ns.
 constexpr std::size_t pieces_per_thread = 4;
-constexpr int most_threads = 4096;  // a number of a piece has 16 bits
+constexpr int max_threads = 4096;  // a number of a piece has 16 bits
 
 /// Pieces that nobody has taken yet, first and end in one word; those at the front are its owner's.
 struct Range {
@@ -46,7 +46,7 @@ class Team::Crew {
  public:
   Crew(int threads) : shares_(std::size_t(threads)) {
     const bool crowded = unsigned(threads) > std::thread::hardware_concurrency();
-    patience_ = crowded ? courtesy : patience;
+    patience_ = crowded ? yield_time : patience;
     for (std::size_t self = 1; self < shares_.size(); ++self) {
       threads_.emplace_back([this, self] { serve(self); });
     }
@@ -166,7 +166,7 @@ class Team::Crew {
 
 Team::Team(int threads)
     : threads_(std::clamp(threads > 0 ? threads : int(std::thread::hardware_concurrency()), 1,
-                          most_threads)) {
+                          max_threads)) {
   if (threads_ > 1) crew_ = std::make_shared<Crew>(threads_);
 }
 

@@ -75,7 +75,8 @@ CutValues cut_values_of(const CutCell& cell, double spacing, const CellMaterial&
     }
   }
   const Eigen::Matrix4d root =
-      std::sqrt(0.25 * spacing * spacing * fraction * material.bending) * mode_root(moments);
+      std::sqrt(0.25 * spacing * spacing * fraction * material.hourglass_modulus) *
+      mode_root(moments);
   std::size_t next = 7;
   for (int m = 0; m < 4; ++m) {
     for (int n = m; n < 4; ++n) values[next++] = root(m, n);

@@ -21,7 +21,7 @@ namespace fingertip::lattice {
 struct CellLattice {
   /// Per lane of a cut block, value by value (value v of lane l at cut[block.cut + v].at[l]): the
   /// volume fraction (0: absent), the means over the rubber of x, y, z, yz, zx, xy, the cell being
-  /// [-1, 1]³, and the upper triangle, row by row, of the matrix R with RᵀR = a²/4 fraction bending
+  /// [-1, 1]³, and the upper triangle, row by row, of the matrix R with RᵀR = a²/4 fraction mu_h
   /// Omega [√N].
   static constexpr std::size_t cut_values = 17;
 

@@ -53,7 +53,7 @@ CellResponse deformed_response(const CellMaterial& m, const Law::Rows& F) {
   const double pressure =
       network ? Law::network_pressure(m, J) : Law::volume_pressure(m, 1.0, J - 1.0);
   CellResponse response;
-  response.stress = (shear - m.bending) * flat(F) + pressure * flat(T);
+  response.stress = (shear - m.hourglass_modulus) * flat(F) + pressure * flat(T);
   for (Eigen::Index n = 0; n < 9; ++n) {
     response.tangent.col(n) = flat(network ? Law::network_tangent(m, T, pressure, unit(n))
                                            : Law::volume_tangent(m, F, T, pressure, unit(n)));
@@ -69,10 +69,11 @@ double CellLaw::energy(const Matrix3d& H, double excess) const {
   const Law::Rows gradient = rows_of(H);
   if (m.kind == CellLawKind::cubic) {
     return Law::cubic_energy(m, 1.0, rows_of(axes.transpose() * H * axes)) -
-           0.5 * m.bending * H.squaredNorm();
+           0.5 * m.hourglass_modulus * H.squaredNorm();
   }
   const Law::Rows F = Law::plus_one(gradient);
-  const double J = dot(F.x, cross(F.y, F.z)), fibres = 0.5 * m.bending * Law::stretch(gradient);
+  const double J = dot(F.x, cross(F.y, F.z)),
+               fibres = 0.5 * m.hourglass_modulus * Law::stretch(gradient);
   if (m.kind == CellLawKind::volume) return Law::volume_energy(m, 1.0, J) - fibres;
   if (!(J > 0.0)) return std::numeric_limits<double>::infinity();
   return Law::network_energy(m, 1.0, gradient, J) - fibres;
@@ -92,7 +93,7 @@ CellResponse CellLaw::evaluate(const Matrix3d& H, double excess) const {
     return response;
   }
   if (material.kind == CellLawKind::cubic) {
-    response.stress = cubic_stress(*this, H) - material.bending * flat(rows_of(H));
+    response.stress = cubic_stress(*this, H) - material.hourglass_modulus * flat(rows_of(H));
     for (Eigen::Index n = 0; n < 9; ++n) {
       Matrix3d change = Matrix3d::Zero();
       change(n / 3, n % 3) = 1.0;
@@ -101,7 +102,7 @@ CellResponse CellLaw::evaluate(const Matrix3d& H, double excess) const {
   } else {
     response = deformed_response(material, Law::plus_one(rows_of(H)));
   }
-  response.tangent.diagonal().array() -= material.bending;
+  response.tangent.diagonal().array() -= material.hourglass_modulus;
   response.energy = energy(H);
   return response;
 }

@@ -22,7 +22,7 @@ struct CellResponse {
 meshes::HyperelasticLaw hyperelastic_law(const CellMaterial& material);
 
 /// The law of a material (kernels/cell_law.h) less what fibres along the edges carry of it, which
-/// equilibria count edge by edge: W(H) - bending/2 |H|² (cubic), W(H) - bending/2 (|F|² - 3).
+/// equilibria count edge by edge: W(H) - mu_h/2 |H|² (cubic), W(H) - mu_h/2 (|F|² - 3).
 /// Laws that hold their fibres (CellMaterial) see `excess` instead, the share of the fibres times
 /// what the edges' gradients differ by. Laws
 /// of large strain need J > 0.

@@ -38,7 +38,7 @@ std::array<Matrix3d, 8> law_stiffness(const CutCell& cell, const CellMaterial& m
     double edges = -volume * g.squaredNorm();
     for (const std::size_t d : along_axis)
       edges += spacing * spring_share(moments, c, half_stencil[d]);
-    block.diagonal().array() += material.bending * edges;
+    block.diagonal().array() += material.hourglass_modulus * edges;
   }
   return result;
 }

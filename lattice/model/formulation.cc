@@ -17,7 +17,7 @@ CellMaterial cubic_material(const SpringConstants& k, double spacing, double sha
   material.c44 = shear_stiffness(k, spacing);
   material.c12 = material.c44 + k.kappa;
   material.c11 = (k.k1 + k.k2) / spacing + material.c44 + k.kappa;
-  material.bending = share * material.c44;
+  material.hourglass_modulus = share * material.c44;
   return material;
 }
 
@@ -41,7 +41,7 @@ CellMaterial network_material(const meshes::StrainEnergy& energy, double shear, 
       energy.isochoric() ? lambda + 2.0 / 3.0 * shear : lambda - energy.lambda_share() * shear;
   material.shear = shear;
   material.lambda = lambda;
-  material.bending = share * shear;
+  material.hourglass_modulus = share * shear;
   return material;
 }
 

@@ -23,11 +23,11 @@ inline constexpr double fibre_share = 1.0 / 3.0;
 ///   hookean, finite   central springs k1, k2, k3, cells with the law `volume`
 ///   central           central springs k1, k2, k3, cells without a law
 struct Formulation {
-  SpringConstants constants;      ///< of this lattice; kappa = 0 for central
-  bool central_springs = false;   ///< whether k1, k2, k3 are springs
-  bool cell_law = false;          ///< whether cells store energy
-  CellMaterial material;          ///< of the cells; its `bending` times a is a whole edge's fibre
-  bool finite = false;            ///< kinematics
+  SpringConstants constants;     ///< of this lattice; kappa = 0 for central
+  bool central_springs = false;  ///< whether k1, k2, k3 are springs
+  bool cell_law = false;         ///< whether cells store energy
+  CellMaterial material;  ///< of the cells; its `hourglass_modulus` times a is a whole edge's fibre
+  bool finite = false;    ///< kinematics
   meshes::Relaxation relaxation;  ///< of all constants, or of shear alone
   double shear = 0.0;             ///< C44 at rest [Pa]
 };

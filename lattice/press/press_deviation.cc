@@ -156,8 +156,8 @@ double in_two_digits(double value) {
 
 double expected_force(const PressSetup& setup) {
   Rubber rubber = setup.rubber;
-  rubber.youngs_modulus *= rubber.relaxation.instant();
-  rubber.shear_modulus *= rubber.relaxation.instant();
+  rubber.youngs_modulus *= rubber.relaxation.instantaneous_ratio();
+  rubber.shear_modulus *= rubber.relaxation.instantaneous_ratio();
   const auto shape = meshes::shape_of(setup.geometry);
   const double depth = setup.protocol.depth, thickness = shape->wall();
   const RoughForce round(setup.geometry, rubber, setup.protocol.obstacle);

@@ -35,7 +35,7 @@ constexpr double finite_step = 1.0 / 40.0;
 /// A step is not made smaller than this share of the largest.
 constexpr double smallest_share = 1.0 / 128.0;
 /// Rounds of anchoring and releasing within a step.
-constexpr int most_rounds = 60;
+constexpr int max_rounds = 60;
 /// Unbalanced force that is small enough to see which points touch.
 constexpr double search_tolerance = 1e-4;
 
@@ -193,7 +193,7 @@ bool StaticPress::step_to(double place) {
   const bool stick = setup_.protocol.contact == ContactMode::stick;
   double tolerance = stick ? search_tolerance_ : tolerance_;
   bool converged = false;
-  for (int round = 0; round < most_rounds && !converged; ++round) {
+  for (int round = 0; round < max_rounds && !converged; ++round) {
     if (!solver_.solve(next.contact, next.displacement, tolerance)) return false;
     if (stick && slope_system_)
       slope_system_->respond(solver_, next.contact, next.displacement, next.slopes);

@@ -25,7 +25,8 @@ void add_springs(const GridCells& cells, const Formulation& formulation, Lattice
   const std::array<double, 3> k{formulation.constants.k1, formulation.constants.k2,
                                 formulation.constants.k3};
   const bool apart = !formulation.material.holds_fibres();
-  const double whole_fibre = apart ? formulation.material.bending * cells.grid().spacing : 0.0;
+  const double whole_fibre =
+      apart ? formulation.material.hourglass_modulus * cells.grid().spacing : 0.0;
   for (std::uint32_t p = 0; p < cells.particles(); ++p) {
     for (std::size_t s = 0; s < half_stencil.size(); ++s) {
       const double share = shares[s][cells.point(p)];

@@ -220,17 +220,17 @@ void ElasticSystem::Implementation::assemble_cells(const VectorXd& displacement,
                                                    double* values) const {
   for (std::size_t i = 0; i < body.cells.size(); ++i) {
     const MeanCell& cell = body.cells[i];
-    const bool bends = body.law.material.holds_fibres();
+    const bool with_modes = body.law.material.holds_fibres();
     Eigen::Matrix<double, 3, 4> modes;
-    if (bends) modes = cell_modes(cell, displacement);
-    const CellResponse response =
-        body.law.evaluate(cell_gradient(cell, displacement), bends ? modes.squaredNorm() : 0.0);
+    if (with_modes) modes = cell_modes(cell, displacement);
+    const CellResponse response = body.law.evaluate(cell_gradient(cell, displacement),
+                                                    with_modes ? modes.squaredNorm() : 0.0);
     const Matrix3d transposed = Eigen::Map<const Matrix3d>(response.stress.data());
     Eigen::Matrix<double, 3, 8> pull = transposed.transpose() * cell.gradients;
-    if (bends) pull += 2.0 * response.slope * modes * cell.modes;
+    if (with_modes) pull += 2.0 * response.slope * modes * cell.modes;
     for (int c = 0; c < 8; ++c)
       force.segment<3>(3 * Eigen::Index(cell.corners[std::size_t(c)])) -= cell.volume * pull.col(c);
-    if (values) add_cell(i, response, bends ? &modes : nullptr, values);
+    if (values) add_cell(i, response, with_modes ? &modes : nullptr, values);
   }
 }
 

@@ -14,12 +14,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int most_iterations = 100;
+constexpr int max_iterations = 100;
 /// Gradients that cost as much as a factorisation, from 1000 to 24 000 unknowns (MEASUREMENTS).
 constexpr int factor_cost = 50;
-constexpr int most_response_gradients = 30;
-constexpr int most_halvings = 20;
-constexpr int most_shifts = 6;
+constexpr int max_response_gradients = 30;
+constexpr int max_halvings = 20;
+constexpr int max_shifts = 6;
 constexpr double first_shift = 1e-3;  // of the mean stiffness
 /// Accuracy of a Newton step; the next one corrects what it leaves.
 constexpr double step_accuracy = 1e-3;
@@ -47,7 +47,7 @@ struct EquilibriumSolver::Implementation {
   bool find_step(VectorXd& step);
   bool factorise();
   bool iterate(VectorXd& step);
-  bool is_worn() const { return last_gradients * steps > factor_cost + gradients; }
+  bool factor_is_stale() const { return last_gradients * steps > factor_cost + gradients; }
   bool search(const StaticContact& contact, const VectorXd& step, VectorXd& displacement);
   bool iterate(const MatrixXd& forces, MatrixXd& responses) const;
 
@@ -115,7 +115,7 @@ double EquilibriumSolver::Implementation::round_off_energy(double energy) const 
 bool EquilibriumSolver::Implementation::factorise() {
   const double typical = tangent.diagonal().mean();
   double shift = 0.0;
-  for (int i = 0; i < most_shifts; ++i) {
+  for (int i = 0; i < max_shifts; ++i) {
     factor.setShift(shift);
     factor.factorize(tangent);
     require_memory(factor.cholmod(), tangent.rows());
@@ -161,7 +161,7 @@ bool EquilibriumSolver::Implementation::iterate(VectorXd& step) {
 /// cost on average, itself included: the average is then least.
 bool EquilibriumSolver::Implementation::find_step(VectorXd& step) {
   step.resize(force.size());
-  if (factorised && !is_worn() && iterate(step)) return true;
+  if (factorised && !factor_is_stale() && iterate(step)) return true;
   if (!factorise()) return false;
   step = factor.solve(force);
   return true;
@@ -176,7 +176,7 @@ bool EquilibriumSolver::Implementation::search(const StaticContact& contact, con
   if (!(slope > 0.0) || !std::isfinite(start)) return false;
   const VectorXd origin = displacement;
   double length = 1.0;
-  for (int i = 0; i < most_halvings; ++i, length *= 0.5) {
+  for (int i = 0; i < max_halvings; ++i, length *= 0.5) {
     displacement = origin + length * step;
     const double now = energy(contact, displacement);
     if (!std::isfinite(now)) continue;
@@ -198,7 +198,7 @@ bool EquilibriumSolver::Implementation::iterate(const MatrixXd& forces, MatrixXd
   MatrixXd residual = forces - product(responses);
   MatrixXd direction = MatrixXd::Zero(forces.rows(), forces.cols());
   VectorXd slope = VectorXd::Ones(forces.cols());
-  const int most = std::max(fewest_gradients, most_response_gradients / int(forces.cols()));
+  const int most = std::max(fewest_gradients, max_response_gradients / int(forces.cols()));
   for (int i = 0; i < most; ++i) {
     std::vector<Eigen::Index> active;
     for (Eigen::Index j = 0; j < forces.cols(); ++j)
@@ -245,7 +245,7 @@ bool EquilibriumSolver::solve(const StaticContact& contact, VectorXd& displaceme
                               double tolerance) {
   Implementation& own = *implementation_;
   VectorXd step;
-  for (int i = 0; i < most_iterations; ++i) {
+  for (int i = 0; i < max_iterations; ++i) {
     double contact_force = 0.0;
     try {
       contact_force = own.evaluate(contact, displacement, &own.tangent);

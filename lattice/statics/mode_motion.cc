@@ -28,7 +28,7 @@ Vector3 cylindrical(const Vector3& u, double phi) {
           std::cos(phi) * u.y() - std::sin(phi) * u.x(), u.z()};
 }
 
-int most_waves(const std::map<std::pair<long, long>, Ring>& rings) {
+int max_waves(const std::map<std::pair<long, long>, Ring>& rings) {
   std::array<double, orders> energy{};
   for (const auto& [place, ring] : rings) {
     for (int n = 0; n < orders; ++n) {
@@ -70,7 +70,7 @@ ModeMotion motion_of(const LatticeBody& body, const Eigen::VectorXd& shape, doub
   }
   motion.effective_mass = motion.effective_mass.cwiseAbs2() / mass;
   motion.effective_inertia = torsion * torsion / inertia;
-  motion.waves = most_waves(rings);
+  motion.waves = max_waves(rings);
   return motion;
 }
 

@@ -36,7 +36,7 @@ StaticContact::Relative StaticContact::relative(std::size_t point, const VectorX
   return {position(outer, displacement) - top, outer.rest - top};
 }
 
-StaticContact::Facing StaticContact::facing(const Relative& point) const {
+StaticContact::GapAndNormal StaticContact::gap_and_normal(const Relative& point) const {
   const double over = point.now.dot(plane_.normal);
   if (plane_.obstacle.is_plane()) return {over, plane_.normal};
   if (!body_->finite)
@@ -51,13 +51,13 @@ Matrix3d StaticContact::bend(const Relative& point) const {
 }
 
 bool StaticContact::touches(std::size_t point, const VectorXd& displacement) const {
-  return stick_ ? anchored_[point] != 0 : facing(point, displacement).gap < 0.0;
+  return stick_ ? anchored_[point] != 0 : gap_and_normal(point, displacement).gap < 0.0;
 }
 
 Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement) const {
   const EmbeddedPoint& outer = body_->outer[point];
   if (stick_ && !anchored_[point]) return Vector3::Zero();
-  const Facing now = facing(point, displacement);
+  const GapAndNormal now = gap_and_normal(point, displacement);
   const double depth = std::max(-now.gap, 0.0), push = TiePush(body_->contact, depth).length;
   if (!stick_) return outer.stiffness * push * now.normal;
   const Vector3 stretch = plane_.point(place_) + anchor_[point] - position(outer, displacement);
@@ -65,7 +65,8 @@ Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement
 }
 
 double StaticContact::pressure(std::size_t point, const VectorXd& displacement) const {
-  const Vector3 normal = stick_ ? anchor_normal_[point] : facing(point, displacement).normal;
+  const Vector3 normal =
+      stick_ ? anchor_normal_[point] : gap_and_normal(point, displacement).normal;
   return tie_force(point, displacement).dot(normal) / body_->outer[point].area;
 }
 
@@ -74,7 +75,7 @@ double StaticContact::energy(const VectorXd& displacement) const {
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (!touches(i, displacement)) continue;
     const EmbeddedPoint& outer = body_->outer[i];
-    const double depth = std::max(-facing(i, displacement).gap, 0.0);
+    const double depth = std::max(-gap_and_normal(i, displacement).gap, 0.0);
     double own = TiePush(body_->contact, depth).energy;
     if (stick_) {
       const Vector3 stretch = plane_.point(place_) + anchor_[i] - position(outer, displacement);
@@ -97,7 +98,7 @@ double StaticContact::add(const VectorXd& displacement, const ElasticSystem& sys
       force.segment<3>(3 * Eigen::Index(outer.corners[c])) += outer.weights[c] * push;
     if (!tangent) continue;
     const Relative at = relative(i, displacement, place_);
-    const Facing now = facing(at);
+    const GapAndNormal now = gap_and_normal(at);
     const double depth = std::max(-now.gap, 0.0);
     const TiePush tie(body_->contact, depth);
     const Matrix3d along = now.normal * now.normal.transpose();
@@ -115,10 +116,10 @@ std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, doub
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (anchored_[i]) continue;
     const Relative last = relative(i, end, place_);
-    const Facing after = facing(last);
+    const GapAndNormal after = gap_and_normal(last);
     if (after.gap >= -gap_noise) continue;
     const Relative first = relative(i, start, from);
-    const Facing before = facing(first);
+    const GapAndNormal before = gap_and_normal(first);
     FirstTouch touch{.point = i,
                      .before = std::max(before.gap, 0.0),
                      .after = after.gap,
@@ -132,7 +133,7 @@ std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, doub
     const double share = touch.share();
     const Relative there{(1.0 - share) * first.now + share * last.now,
                          (1.0 - share) * first.rest + share * last.rest};
-    const Facing left = facing(there);
+    const GapAndNormal left = gap_and_normal(there);
     touch.anchor = there.now - left.gap * left.normal;
     touch.projection =
         Matrix3d::Identity() - left.normal * left.normal.transpose() - left.gap * bend(there);
@@ -147,7 +148,7 @@ int StaticContact::anchor_touching(const VectorXd& start, double from, const Vec
     const std::size_t i = touch.point;
     anchor_[i] = touch.anchor;
     anchored_[i] = 1;
-    if (body_->finite) anchor_normal_[i] = facing({touch.anchor, touch.anchor}).normal;
+    if (body_->finite) anchor_normal_[i] = gap_and_normal({touch.anchor, touch.anchor}).normal;
   }
   return int(touches.size());
 }

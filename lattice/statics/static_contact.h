@@ -93,14 +93,14 @@ class StaticContact {
     meshes::Vector3 now, rest;
   };
   /// Its gap [m] and the gradient of that.
-  struct Facing {
+  struct GapAndNormal {
     double gap;
     meshes::Vector3 normal;
   };
   Relative relative(std::size_t point, const Eigen::VectorXd& displacement, double place) const;
-  Facing facing(const Relative& point) const;
-  Facing facing(std::size_t point, const Eigen::VectorXd& displacement) const {
-    return facing(relative(point, displacement, place_));
+  GapAndNormal gap_and_normal(const Relative& point) const;
+  GapAndNormal gap_and_normal(std::size_t point, const Eigen::VectorXd& displacement) const {
+    return gap_and_normal(relative(point, displacement, place_));
   }
   /// Derivative of the normal with respect to the place [1/m].
   Eigen::Matrix3d bend(const Relative& point) const;

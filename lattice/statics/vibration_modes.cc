@@ -21,7 +21,7 @@ namespace {
 
 /// Of an eigenvector's residual; the eigenvalue's error is its square.
 constexpr double residual_tolerance = 1e-10;
-constexpr int most_restarts = 1000;
+constexpr int max_restarts = 1000;
 constexpr int smallest_basis = 20;  // Lanczos vectors
 /// Some squared frequency near the lowest elastic ones, over the mean square frequency of all
 /// modes, trace K / trace M.
@@ -141,10 +141,10 @@ std::vector<Found> largest(InverseOperator& inverse, int count, std::mt19937& ge
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const VectorXd start = VectorXd::NullaryExpr(inverse.rows(), [&] { return uniform(generator); });
   solver.init(start.data());
-  solver.compute(Spectra::SortRule::LargestAlge, most_restarts, residual_tolerance);
+  solver.compute(Spectra::SortRule::LargestAlge, max_restarts, residual_tolerance);
   if (solver.info() != Spectra::CompInfo::Successful)
     throw meshes::NotConverged("the natural vibrations of the lattice were not found in " +
-                               std::to_string(most_restarts) + " restarts of Lanczos' method");
+                               std::to_string(max_restarts) + " restarts of Lanczos' method");
   const VectorXd nu = solver.eigenvalues();
   const Eigen::MatrixXd v = solver.eigenvectors();
   std::vector<Found> found;

@@ -28,7 +28,7 @@ std::vector<Violation> Relaxation::violations() const {
   return found;
 }
 
-double Relaxation::instant() const {
+double Relaxation::instantaneous_ratio() const {
   double left = 1.0;
   for (const RelaxationBranch& branch : branches) left -= branch.share;
   return 1.0 / left;

@@ -32,9 +32,9 @@ struct Relaxation {
   std::vector<Violation> violations() const;
 
   /// G0/G_inf = 1/(1 - sum g_i), >= 1.
-  double instant() const;
+  double instantaneous_ratio() const;
   /// b of branch i.
-  double excess(std::size_t i) const { return branches[i].share * instant(); }
+  double excess(std::size_t i) const { return branches[i].share * instantaneous_ratio(); }
   /// G(t)/G_inf, t >= 0 [s].
   double modulus(double time) const;
   /// Storage and loss modulus over G_inf at a circular frequency [rad/s].

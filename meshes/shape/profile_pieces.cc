@@ -17,7 +17,7 @@ constexpr double round_arc = 1e-4;
 /// Smallest and largest extent of a finger [m].
 constexpr double smallest_finger = 0.5e-3, largest_finger = 0.5;
 /// Straight pieces by which a curve is replaced to find where the meridian crosses itself.
-constexpr int chords = 24, most_chords = 600;
+constexpr int chords = 24, max_chords = 600;
 /// A length over the finger's extent that is round-off.
 constexpr double no_length = 1e-9;
 
@@ -227,7 +227,7 @@ void refuse_profile(const std::string& value, const std::string& rule, const std
 
 int chord_count(const MeridianPiece& piece, std::size_t count) {
   if (piece.curve() == ProfileCurve::straight) return 1;
-  return std::clamp(most_chords / int(count), 2, chords);
+  return std::clamp(max_chords / int(count), 2, chords);
 }
 
 std::vector<MeridianPiece> profile_pieces(std::vector<ProfileCorner> corners) {

@@ -18,7 +18,7 @@ constexpr double far_along = 4.0;
 /// A wall is measured once in each part of the surface, of this share of the largest radius; there
 /// are about so many parts at most, and with more facets ways along the surface lead over parts.
 constexpr double part_size = 0.125;
-constexpr double most_parts = 2000.0;
+constexpr double max_parts = 2000.0;
 constexpr std::size_t many_facets = 2000;
 
 /// Hands over the middle of halves of halves, along the longest edges, until no edge exceeds
@@ -58,7 +58,7 @@ class SurfaceParts {
  public:
   SurfaceParts(const TriangleMesh& mesh, const std::vector<std::array<std::size_t, 3>>& neighbours,
                double area, double radius)
-      : size_(std::max(part_size * radius, std::sqrt(area / most_parts))) {
+      : size_(std::max(part_size * radius, std::sqrt(area / max_parts))) {
     std::vector<double> areas;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Vector3 vector = mesh.area_vector(t);

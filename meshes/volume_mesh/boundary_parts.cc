@@ -29,10 +29,10 @@ constexpr double narrow = 0.02, narrow_bond = 0.2;
 /// Creases of this length together, over the largest radius, which seldom branch, are meant; others
 /// are the roughness of a scan.
 constexpr double short_crease = 0.2;
-constexpr double most_branches = 0.1;
+constexpr double max_branches = 0.1;
 /// Steps to where parts meet: each leaves at most the squared cosine of the angle between them,
 /// 0.97 of what is missing at a lip of 10 degrees.
-constexpr int most_steps = 1000;
+constexpr int max_steps = 1000;
 
 double turned(const Vector2& a, const Vector2& b, const Vector2& c) {
   return cross(b - a, c - b);
@@ -252,7 +252,7 @@ class SolidParts final : public BoundaryParts {
     for (const Side& side : sharp) {
       const Chain& chain = all[chains.of(std::size_t(side.ends[0]))];
       if (chain.length > short_crease * solid_->largest_radius() &&
-          chain.branches <= most_branches * chain.vertices)
+          chain.branches <= max_branches * chain.vertices)
         creases_.push_back(side.ends);
     }
   }
@@ -317,7 +317,7 @@ int BoundaryParts::part_at(PhysicalTag wanted, const Vector3& w) const {
 Vector3 BoundaryParts::on(const std::vector<int>& parts, const Vector3& w) const {
   Vector3 place = w;
   if (parts.size() == 1) return nearest(parts[0], place);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const Vector3 before = place;
     for (const int part : parts) place = nearest(part, place);
     if ((place - before).norm() <= 1e-14 * place.norm()) break;

@@ -29,10 +29,10 @@ constexpr double growth = 0.5;
 constexpr double surface_distance = 0.1;
 /// Where a corner's Jacobian is less, of a cube 1, sizes shrink by `smaller`.
 constexpr double least_jacobian = 0.05, smaller = 0.7;
-constexpr int most_attempts = 24;
+constexpr int max_attempts = 24;
 /// Where that does not help, all is begun anew with sizes smaller by this.
 constexpr double smaller_everywhere = 0.85;
-constexpr int most_beginnings = 3;
+constexpr int max_beginnings = 3;
 /// Facets of a tetrahedron that turn by less than 60 degrees go on from one to the other.
 constexpr double flat_cosine = 0.5;
 
@@ -313,11 +313,11 @@ void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
   const Vector3 touch = options.touch.value_or(Vector3(0.0, 0.0, shape->pole()));
   double share = 1.0;
   Vector3 last = touch;
-  for (int beginning = 0; beginning < most_beginnings; ++beginning, share *= smaller_everywhere) {
+  for (int beginning = 0; beginning < max_beginnings; ++beginning, share *= smaller_everywhere) {
     Sizes sizes(share * usual);
     sizes.add(touch, share * usual / options.cap_grading);
     sizes.add_narrow(surface);
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    for (int attempt = 0; attempt < max_attempts; ++attempt) {
       const Tetrahedra tetrahedra = without_flat_corners(tetrahedra_within(
           surface, [&](const Vector3& w) { return sizes.at(w); }, surface_distance * usual));
       const HexahedralMesh mesh = divided(tetrahedra, *parts);

@@ -30,13 +30,13 @@ using Polyline = std::vector<Point>;
 
 /// Radius over edge of a regular tetrahedron; those made are somewhat smaller than the bound.
 constexpr double radius_over_size = 0.7;
-constexpr double least_facet_angle = 25.0;  ///< [degrees]
+constexpr double min_facet_angle = 25.0;  ///< [degrees]
 constexpr double radius_over_edge = 2.0;
 /// Dihedral angles up to which vertices are moved to open them [degrees].
 constexpr double sliver_angle = 18.0;
 /// The mesher may ask this often for the size at an edge of the body; for a million tetrahedra it
 /// does not.
-constexpr long most_questions = 20'000;
+constexpr long max_questions = 20'000;
 /// An edge of the body that turns by more than this has a corner there (cosine).
 constexpr double corner_cosine = 0.7;
 
@@ -119,7 +119,7 @@ struct Sizes {
   long* asked;
   FT operator()(const Point& p, int dimension, const Index&) const {
     // CGAL goes on for hours where edges come near each other or turn in tiny steps.
-    if (dimension < 2 && ++*asked > most_questions)
+    if (dimension < 2 && ++*asked > max_questions)
       throw NotConverged(
           "the finger cannot be filled with tetrahedra of a sensible number: edges of its surface "
           "come very near each other; smooth or simplify the surface there");
@@ -172,10 +172,10 @@ Tetrahedra tetrahedra_within(const PartedSurface& surface, const SizeField& size
   domain.add_features(borders.begin(), borders.end());
   long asked = 0;
   const Sizes edges{&size, 1.0, &asked}, radii{&size, radius_over_size, &asked};
-  const Criteria criteria(
-      parameters::edge_size = edges, parameters::facet_angle = least_facet_angle,
-      parameters::facet_size = radii, parameters::facet_distance = distance,
-      parameters::cell_radius_edge_ratio = radius_over_edge, parameters::cell_size = radii);
+  const Criteria criteria(parameters::edge_size = edges, parameters::facet_angle = min_facet_angle,
+                          parameters::facet_size = radii, parameters::facet_distance = distance,
+                          parameters::cell_radius_edge_ratio = radius_over_edge,
+                          parameters::cell_size = radii);
   // Without a limit in time, on which the result would hang.
   const Complex complex = CGAL::make_mesh_3<Complex>(
       domain, criteria, parameters::exude(parameters::sliver_bound = sliver_angle),

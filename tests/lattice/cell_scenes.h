@@ -70,7 +70,7 @@ inline CellMaterial material(CellLawKind kind, double retardation_time = 0.0) {
   m.c11 = 3.1e3, m.c12 = 1.7e3, m.c44 = 1.2e3;
   m.kappa = 7.7e3;
   m.shear = 1.4e3, m.lambda = 9.1e3;
-  m.bending = 450.0;
+  m.hourglass_modulus = 450.0;
   m.retardation_time = retardation_time;
   using meshes::RubberLaw, meshes::VolumetricLaw;
   // Laws whose energy can be written without principal stretches (tests/lattice/reference.h).

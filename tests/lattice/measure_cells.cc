@@ -37,7 +37,7 @@ lattice::CellMaterial material(const Law& law) {
   lattice::CellMaterial m;
   m.kind = law.kind;
   m.c11 = 3.1e3, m.c12 = 1.7e3, m.c44 = 1.2e3, m.kappa = 7.7e3;
-  m.shear = 1.4e3, m.lambda = 9.1e3, m.bending = 450.0;
+  m.shear = 1.4e3, m.lambda = 9.1e3, m.hourglass_modulus = 450.0;
   m.retardation_time = law.damped ? 3e-4 : 0.0;
   return m;
 }

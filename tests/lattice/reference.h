@@ -46,7 +46,7 @@ inline Cell cell_of(const CellLattice& cells, const lattice::CellBlock& block, s
   Cell cell;
   cell.lowest = block.first + lane;
   if (block.cut == lattice::CellBlock::whole) {
-    cell.bent = cells.material.bending * Eigen::Vector4d(2.0, 2.0, 2.0, 3.0).asDiagonal();
+    cell.bent = cells.material.hourglass_modulus * Eigen::Vector4d(2.0, 2.0, 2.0, 3.0).asDiagonal();
     return cell;
   }
   const auto value = [&](std::size_t v) { return cells.cut[block.cut + v].at[lane]; };

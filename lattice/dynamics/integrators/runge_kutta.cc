@@ -22,7 +22,7 @@ namespace {
 /// Largest change of a cell's volume within a step (as for Euler steps, time_step.cc).
 constexpr double largest_volume_change = 0.1;
 
-constexpr int most_retries = 12;  // of a step that runs into inverted cells, each a quarter as long
+constexpr int max_retries = 12;  // of a step that runs into inverted cells, each a quarter as long
 
 }  // namespace
 
@@ -184,7 +184,7 @@ double RungeKutta::Solver::step(const Drive& drive) {
       take_over(drive, taken);
       return taken;
     }
-    if (retries == most_retries) throw CrushedCells("cells are pressed flat");
+    if (retries == max_retries) throw CrushedCells("cells are pressed flat");
     ++rejected_;
     planned *= 0.25;
     restart(local_, planned);

@@ -88,7 +88,7 @@ double EdgeInertiaRule::find(const State& state, double step, double allowance, 
                              EdgeInertia& edges) {
   const CellLattice& cells = model_->cell_lattice;
   const double unit = allowance * cells.spacing,
-               elastic = unit * 0.25 * step * step * model_->relaxation.instant(),
+               elastic = unit * 0.25 * step * step * model_->relaxation.instantaneous_ratio(),
                viscous = unit * 0.5 * step * cells.material.retardation_time;
   const sweeps::EdgeFactors now = factors(elastic, viscous);
   sweeps::EdgeArrays arrays{{}, shares_.data(), 1.0 / cells.spacing, {1, cells.row, cells.plane}};
@@ -97,7 +97,7 @@ double EdgeInertiaRule::find(const State& state, double step, double allowance, 
   team.split(packs_.size(), edges_at_once, [&](std::size_t begin, std::size_t end) {
     edge_loops().find_moduli(arrays, now, packs_.data() + begin, end - begin);
   });
-  const Single spread = Single((elastic + viscous) * cells.material.bending);
+  const Single spread = Single((elastic + viscous) * cells.material.hourglass_modulus);
   team.split(3, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t d = begin; d < end; ++d) {
       Single* along[3];

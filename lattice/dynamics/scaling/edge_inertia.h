@@ -19,7 +19,7 @@ using EdgeInertia = std::array<std::array<std::vector<Single>, 3>, 3>;
 
 /// S = Σ_cells a Σ_components Σ_edges (M_cd c_e + N b_e) (u_c,i - u_c,j)², d the axis of edge e,
 ///
-///   M = dt² E/4 + dt tau V/2,  N = (dt²/4 + dt tau/2) bending [Pa s²],
+///   M = dt² E/4 + dt tau V/2,  N = (dt²/4 + dt tau/2) mu_h [Pa s²],
 ///
 /// so that dt² K + 2 dt C <= 4 S. E_cd and V_cd bound the row sums of |d²W/dF²| and of its viscous
 /// counterpart over all entries of F; as diagonal forms, Σ E_cd dF_cd², they are not below them

@@ -35,7 +35,7 @@ struct Tip {
     const SharedMesh mesh(0.4, meshes::Sector::half);
     body = fem_reference::read_tip<3>(MPI_COMM_WORLD, mesh.file(), 2, 0.0);
     body->number(fem_reference::tip_supports<3>());
-    HookeKernel<3> kernel(rubber, fem_reference::Volumetric::projected);
+    HookeKernel<3> kernel(rubber, fem_reference::Volumetric::mean_dilatation);
     const bool serial = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
     system = std::make_unique<LinearSystem>(*body, !serial);
     assemble(*body, kernel, body->fine.vector(), *system);

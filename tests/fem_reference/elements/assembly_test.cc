@@ -82,7 +82,7 @@ double force_inside(const Body<3>& body, double energy_tolerance) {
   const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2;
   const double density = rubber.lame_lambda() / 2 * std::pow(strain.trace(), 2) +
                          rubber.shear_modulus * strain.squaredNorm();
-  HookeKernel<3> kernel(rubber, Volumetric::projected);
+  HookeKernel<3> kernel(rubber, Volumetric::mean_dilatation);
   LinearSystem system(body, false);
   const Vector u = interpolate(body, body.fine, linear);
   assemble(body, kernel, u, system);
@@ -117,7 +117,7 @@ TEST_P(Assembly, PassesThePatchTest) {
 /// Energy of a rotation by a small angle, over that of a shear by the same angle.
 double energy_of_rotation(const Body<3>& body) {
   const meshes::Rubber rubber;
-  HookeKernel<3> kernel(rubber, Volumetric::projected);
+  HookeKernel<3> kernel(rubber, Volumetric::mean_dilatation);
   LinearSystem system(body, false);
   const double angle = 0.1;
   const Vector rotation = interpolate(body, body.fine, [&](const dealii::Point<3>& x) {
@@ -141,7 +141,7 @@ TEST_P(Assembly, HangingNodesMissRigidRotationsByLittle) {
 
 TEST_P(Assembly, RigidMotionsCostNothing) {
   const auto body = make_body(GetParam(), {}, false);
-  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
+  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::mean_dilatation);
   LinearSystem system(*body, false);
   const Vector rigid = interpolate(*body, body->fine, [](const dealii::Point<3>& x) {
     return Eigen::Vector3d(0.01 - 0.3 * x[1] + 0.5 * x[2], 0.02 + 0.3 * x[0] - 0.8 * x[2],
@@ -155,7 +155,7 @@ TEST_P(Assembly, RigidMotionsCostNothing) {
 /// Hanging or not.
 TEST_P(Assembly, TranslationsCostNothing) {
   const auto body = make_body(GetParam(), {});
-  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
+  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::mean_dilatation);
   LinearSystem system(*body, false);
   const Vector shift = interpolate(*body, body->fine, [](const dealii::Point<3>&) {
     return Eigen::Vector3d(0.01, 0.02, -0.03);
@@ -171,7 +171,7 @@ TEST_P(Assembly, TranslationsCostNothing) {
 /// What hanging nodes and held components do not touch stays symmetric.
 TEST_P(Assembly, MatrixIsSymmetric) {
   const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
-  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
+  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::mean_dilatation);
   LinearSystem system(*body, false);
   assemble(*body, kernel, body->fine.vector(), system);
   Vector a = interpolate(*body, body->fine, [](const auto& x) {
@@ -189,7 +189,7 @@ TEST_P(Assembly, MatrixIsSymmetric) {
 /// The Galerkin product: the energy of a piecewise linear field is the same in both matrices.
 TEST_P(Assembly, CoarseMatrixIsTheRestrictionToLinearElements) {
   const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
-  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
+  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::mean_dilatation);
   LinearSystem system(*body, true);
   assemble(*body, kernel, body->fine.vector(), system);
   const auto energy = [&](const Field& field) {
@@ -223,7 +223,7 @@ TEST_P(Assembly, CoarseMatrixIsTheRestrictionToLinearElements) {
 /// What the bond exerts on the body balances what pulls elsewhere.
 TEST_P(Assembly, UnconstrainedForcesAddUpToZero) {
   const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
-  HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::projected);
+  HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::mean_dilatation);
   const Vector u = interpolate(*body, body->fine, [](const auto& x) {
     return Eigen::Vector3d(2 * x[0] * x[2], x[1] * x[1], -3 * x[2] * x[0]);
   });
@@ -235,7 +235,7 @@ TEST_P(Assembly, UnconstrainedForcesAddUpToZero) {
 /// Inverted at the pole alone, so that not every process sees it; all of them say so.
 TEST_P(Assembly, AnInvertedElementStopsEveryProcess) {
   const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
-  HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::projected);
+  HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::mean_dilatation);
   LinearSystem system(*body, false);
   const Vector u = interpolate(*body, body->fine, [](const auto& x) {
     return Eigen::Vector3d(0, 0, x.distance(dealii::Point<3>(0, 0, 0.01)) < 1e-9 ? -0.01 : 0.0);
@@ -250,7 +250,7 @@ TEST_P(Assembly, AnElementOfTheMeshThatIsTurnedInsideOutIsTold) {
   const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
   const auto cell = body->triangulation.begin_active();
   std::swap(cell->vertex(0), cell->vertex(7));
-  HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::projected);
+  HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::mean_dilatation);
   LinearSystem system(*body, false);
   EXPECT_THROW(assemble(*body, kernel, body->fine.vector(), system), meshes::NotConverged);
 }

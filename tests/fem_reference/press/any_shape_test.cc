@@ -99,7 +99,7 @@ TEST(AnyShape, PassesThePatchTest) {
              Vector3(x[0], x[1], x[2]))[body->fine.element.system_to_component_index(i).first];
     }
   }
-  fem_reference::HookeKernel<3> kernel({}, fem_reference::Volumetric::projected);
+  fem_reference::HookeKernel<3> kernel({}, fem_reference::Volumetric::mean_dilatation);
   fem_reference::LinearSystem system(*body, false);
   assemble(*body, kernel, u, system);
   const dealii::IndexSet surface =
@@ -131,7 +131,7 @@ TEST(AnyShape, CellsAtHiddenEdgesAreDividedAndNotTurned) {
   body->number({});
   EXPECT_NEAR(area(*body, PhysicalTag::bond) / held, 1.0, 1e-5);
   EXPECT_NEAR(volume(*body) / whole, 1.0, 2e-4);
-  fem_reference::HookeKernel<3> kernel({}, fem_reference::Volumetric::projected);
+  fem_reference::HookeKernel<3> kernel({}, fem_reference::Volumetric::mean_dilatation);
   fem_reference::LinearSystem system(*body, false);
   // Refuses cells that are turned.
   EXPECT_NO_THROW(assemble(*body, kernel, body->fine.vector(), system));

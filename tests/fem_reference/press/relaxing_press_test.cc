@@ -87,8 +87,9 @@ TEST(RelaxingPress, QuickBranchesAreGoneAndSlowOnesAreSprings) {
         job.rubber.relaxation.bulk = bulk;
         ReferenceJob soft = job, hard = job;
         soft.rubber.relaxation = hard.rubber.relaxation = {};
-        const double G = job.rubber.relaxation.instant() * job.rubber.shear_modulus,
-                     K = job.rubber.bulk_modulus() * (bulk ? job.rubber.relaxation.instant() : 1.0);
+        const double G = job.rubber.relaxation.instantaneous_ratio() * job.rubber.shear_modulus,
+                     K = job.rubber.bulk_modulus() *
+                         (bulk ? job.rubber.relaxation.instantaneous_ratio() : 1.0);
         hard.rubber.set_lame(G, K - 2.0 / 3.0 * G);
         // In the same steps: where a node first touches depends on them.
         for (auto& branch : job.rubber.relaxation.branches) branch.time *= 1e-7;

@@ -36,7 +36,7 @@ namespace {
 struct FreeVibration {
   explicit FreeVibration(double retardation_time)
       : body(read_tip<3>(MPI_COMM_WORLD, mesh.file(), 2, 0.0)),
-        stiffness(rubber, Volumetric::projected),
+        stiffness(rubber, Volumetric::mean_dilatation),
         mass(rubber.density),
         tau(retardation_time) {
     body->number(tip_supports<3>());

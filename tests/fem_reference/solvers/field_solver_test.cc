@@ -38,7 +38,7 @@ struct Problem {
     body = fem_reference::read_tip<3>(MPI_COMM_WORLD, mesh.file(), degree, 0.0);
     if (hanging) refine_pole();
     body->number(fem_reference::tip_supports<3>());
-    HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
+    HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::mean_dilatation);
     system = std::make_unique<LinearSystem>(*body, true);
     assemble(*body, kernel, body->fine.vector(), *system);
     contact = contact_unknowns(within_reach(outer_nodes(*body), {}, 6e-3, 0.0), true);
@@ -165,7 +165,7 @@ TEST_P(FieldSolverTest, EliminatingAgreesWithAFreshOne) {
     LinearSystem stiffer(*problem.body, false);
     meshes::Rubber rubber;
     rubber.shear_modulus *= stiffness;  // at the same E: not a multiple of the matrix before
-    HookeKernel<3> kernel(rubber, Volumetric::projected);
+    HookeKernel<3> kernel(rubber, Volumetric::mean_dilatation);
     assemble(*problem.body, kernel, problem.body->fine.vector(), stiffer);
     stiffness *= 0.985;
     for (const double wider : {0.0, 4e-4, 8e-4}) {  // the contact grows on the way
@@ -215,7 +215,7 @@ class HollowSphere {
     body_ = fem_reference::read_tip<3>(MPI_COMM_WORLD, mesh.file(), 2, 0.0);
     body_->number(fem_reference::tip_supports<3>());
     prescribe();
-    HookeKernel<3> kernel(rubber_, Volumetric::projected);
+    HookeKernel<3> kernel(rubber_, Volumetric::mean_dilatation);
     LinearSystem system(*body_, false);
     assemble(*body_, kernel, body_->fine.vector(), system);
     const auto solver = make_condensed_solver(*body_, unknowns_);

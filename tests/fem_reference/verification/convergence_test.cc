@@ -36,7 +36,7 @@ void expect_orders(const ConvergenceStudy& study, double below, double above) {
 TEST_P(Orders, OnAManufacturedSolution) {
   // Quadratic projected elements come down to their order slowly: the projection's part of the
   // error still falls like h^2.5 here (+0.21 at 8 divisions, +0.15 at 16).
-  const bool slow = element.degree == 2 && element.volumetric == projected;
+  const bool slow = element.degree == 2 && element.volumetric == mean_dilatation;
   for (const bool curved : {true, false})
     expect_orders(study_manufactured({curved, false, paper_ratio}, element, meshes), 0.1,
                   slow ? 0.25 : 0.1);
@@ -44,7 +44,7 @@ TEST_P(Orders, OnAManufacturedSolution) {
 
 TEST_P(Orders, OfNearlyIncompressibleMaterialSurviveOnlyProjection) {
   const ConvergenceStudy study = study_manufactured({true, true, 0.4999}, element, meshes);
-  if (element.volumetric == projected) {
+  if (element.volumetric == mean_dilatation) {
     expect_orders(study, 0.1, 0.1);
   } else {
     EXPECT_LT(study.order_l2, study.expected_l2 - 0.5);
@@ -61,7 +61,7 @@ TEST_P(Orders, UnderPressureOnCurvedWalls) {
 }
 
 TEST_P(Orders, OnTheMeridianOfAManufacturedSolution) {
-  const bool slow = element.degree == 2 && element.volumetric == projected;
+  const bool slow = element.degree == 2 && element.volumetric == mean_dilatation;
   const std::array<std::vector<int>, 4> rings{{{}, {16, 32}, {8, 16}, {4, 8}}};
   // Distorted meshes are not nested: their distortions differ from one to the next.
   for (const bool curved : {true, false})
@@ -77,16 +77,17 @@ TEST_P(Orders, UnderPressureOnMeridians) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements, Orders,
-                         testing::Values(ElementType{1, pointwise}, ElementType{1, projected},
-                                         ElementType{2, pointwise}, ElementType{2, projected},
-                                         ElementType{3, pointwise}, ElementType{3, projected}),
+                         testing::Values(ElementType{1, pointwise}, ElementType{1, mean_dilatation},
+                                         ElementType{2, pointwise}, ElementType{2, mean_dilatation},
+                                         ElementType{3, pointwise},
+                                         ElementType{3, mean_dilatation}),
                          title);
 
 /// Cubic elements contain the cantilever's solution, so only lower ones have an order. Bending
 /// makes the coarse meshes of linear pointwise elements converge faster at first.
 TEST(CantileverOrders, AreNotBelowTheory) {
-  for (const ElementType& element : {ElementType{1, pointwise}, ElementType{1, projected},
-                                     ElementType{2, pointwise}, ElementType{2, projected}})
+  for (const ElementType& element : {ElementType{1, pointwise}, ElementType{1, mean_dilatation},
+                                     ElementType{2, pointwise}, ElementType{2, mean_dilatation}})
     expect_orders(study_cantilever(element, paper_ratio,
                                    element.degree == 1 ? std::vector{4, 8} : std::vector{2, 4}),
                   0.25, 1.0);

@@ -80,7 +80,7 @@ TEST(EdgeInertia, OfRestMeetsTheBulkAlongTheAxesAlone) {
     const std::uint32_t p = among_whole_cells(model);
     for (std::size_t c = 0; c < 3; ++c) {
       for (std::size_t d = 0; d < 3; ++d) {
-        const double expected = unit(model) * ((c == d ? same : other) + m.bending);
+        const double expected = unit(model) * ((c == d ? same : other) + m.hourglass_modulus);
         EXPECT_NEAR(edges[c][d][p], expected, 1e-5 * expected) << int(kind) << c << d;
       }
     }
@@ -118,8 +118,8 @@ TEST(EdgeInertia, IsNotBelowTheTangentOfDeformedCells) {
           model.spacing() * margin *
           (0.25 * step * step * slope + 0.5 * step * m.retardation_time * viscous(change));
       for (Eigen::Index k = 0; k < 9; ++k) excess(k, n) -= all(k / 3, k % 3);
-      excess(n, n) +=
-          double(edges[std::size_t(n / 3)][std::size_t(n % 3)][p]) - unit(model) * m.bending;
+      excess(n, n) += double(edges[std::size_t(n / 3)][std::size_t(n % 3)][p]) -
+                      unit(model) * m.hourglass_modulus;
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(
         0.5 * (excess + excess.transpose()));

@@ -268,7 +268,7 @@ TEST(RelaxingLattice, LargeStrainIsElasticAtOnceAndTurnsAlong) {
     forces.accumulate(state, 0.0, memory, at_once);
     const double scale = largest(model, elastic);
     for (const std::size_t i : model.particles)
-      EXPECT_LT((at_once.at(i) - two.instant() * elastic.at(i)).norm(), 1e-12 * scale);
+      EXPECT_LT((at_once.at(i) - two.instantaneous_ratio() * elastic.at(i)).norm(), 1e-12 * scale);
     const Eigen::Matrix3d Q = turn(0.7);
     constexpr double first = 5e-4, second = 0.02;
     forces.note(state, first, memory, later);

@@ -140,7 +140,7 @@ TEST(CellForces, AreThoseOfTheStaticsFibresAndCells) {
     m.shear = rubber.shear_modulus, m.lambda = rubber.lame_lambda();
     m.c44 = (k.k2 + 4.0 / 3.0 * k.k3) / a;
     m.c12 = m.c44 + k.kappa, m.c11 = (k.k1 + k.k2) / a + m.c44 + k.kappa;
-    m.bending = lattice::fibre_share * (finite ? m.shear : m.c44);
+    m.hourglass_modulus = lattice::fibre_share * (finite ? m.shear : m.c44);
 
     lattice::LatticeBody body = lattice::build_cut_tip({}, rubber, settings, 1);
     body.bond.clear();

@@ -151,7 +151,7 @@ TEST(CellForces, DampingAtRestIsTauTimesTheStiffness) {
       linear.c44 = network ? m.shear : 0.0;
       linear.c12 = network ? m.lambda : m.kappa;
       linear.c11 = linear.c12 + 2.0 * linear.c44;
-      if (!network) linear.bending = 0.0;
+      if (!network) linear.hourglass_modulus = 0.0;
       const VectorField v = random_field(scene, 0.5, 13), rest(scene.grid.points());
       const VectorField expected = forces(scene.of(linear), sum(rest, tau, v), rest);
       EXPECT_LT(largest(sum(forces(scene.of(m), rest, v), -1.0, expected)),
