@@ -14,7 +14,7 @@ struct FadingMoments {
 
   FadingMoments(double duration, double tau) {
     const double x = duration / tau;
-    const meshes::Fading fading(duration, tau);
+    const meshes::PronyRecursion fading(duration, tau);
     keep = fading.keep;
     gain = fading.gain;
     keep_slope = x * keep;

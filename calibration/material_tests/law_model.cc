@@ -250,7 +250,7 @@ CurveSlopes LawModel::evaluate(const VectorXd& parameters) {
   for (Index i = -1; i < own; ++i) add(i, now, 2 * i + 2, 1.0);
   for (std::size_t n = 0; n < relaxation.branches.size(); ++n) {
     const FadingCourse::Branch branch = course_.branch(lasting, relaxation.branches[n].time);
-    const double b = relaxation.excess(n);
+    const double b = relaxation.relative_modulus(n);
     for (Index i = -1; i < own; ++i) add(i, branch.held, 2 * i + 2, b);
     // b_n = g_n/left.
     for (std::size_t m = 0; m < relaxation.branches.size(); ++m)

@@ -34,7 +34,7 @@ FadingForce::FadingForce(const std::vector<FitBranch>& branches, const VectorXd&
   const double instant = relaxation.instantaneous_ratio();
   for (std::size_t i = 0; i < branches.size(); ++i) {
     Branch& own = own_.emplace_back();
-    own.excess = relaxation.excess(i);
+    own.excess = relaxation.relative_modulus(i);
     own.time = relaxation.branches[i].time;
     own.time_place = branches[i].time.place;
     // b_i = g_i/(1 - sum g): db_i/dg_j = (delta_ij + b_i)/(1 - sum g)

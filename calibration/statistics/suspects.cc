@@ -117,7 +117,8 @@ VectorXd fading(const VectorXd& forces, const std::vector<double>& times, double
   double alive = forces.size() > 0 ? forces(0) : 0.0;  // of the branch, over its weight
   for (Index k = 0; k < forces.size(); ++k) {
     if (k > 0) {
-      const meshes::Fading step(times[std::size_t(k)] - times[std::size_t(k - 1)], constant);
+      const meshes::PronyRecursion step(times[std::size_t(k)] - times[std::size_t(k - 1)],
+                                        constant);
       alive = alive * step.keep + (forces(k) - forces(k - 1)) * step.gain;
     }
     change(k) = alive - forces(k);

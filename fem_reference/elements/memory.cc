@@ -36,7 +36,7 @@ bool FadingStep::set(double duration) {
 
 double FadingStep::stiffening() const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < fading_.size(); ++i) sum += excess(i) * gain(i);
+  for (std::size_t i = 0; i < fading_.size(); ++i) sum += relative_modulus(i) * gain(i);
   return sum;
 }
 
@@ -53,7 +53,8 @@ LinearMemory<dim>::LinearMemory(const Body<dim>& body, const ReferenceJob& job)
 template <int dim>
 void LinearMemory<dim>::add_load(const Vector& u, Vector& load) const {
   if (empty()) return;
-  Vector remembered = sum_of([&](std::size_t i) { return -step_.excess(i) * step_.keep(i); });
+  Vector remembered =
+      sum_of([&](std::size_t i) { return -step_.relative_modulus(i) * step_.decay(i); });
   remembered.add(stiffening(), u);
   load += relaxing_force(remembered);
 }
@@ -61,14 +62,14 @@ void LinearMemory<dim>::add_load(const Vector& u, Vector& load) const {
 template <int dim>
 void LinearMemory<dim>::advance(const Vector& from, const Vector& to) {
   for (std::size_t i = 0; i < branches_.size(); ++i) {
-    branches_[i] *= step_.keep(i);
+    branches_[i] *= step_.decay(i);
     branches_[i].add(step_.gain(i), to, -step_.gain(i), from);
   }
 }
 
 template <int dim>
 Vector LinearMemory<dim>::past() const {
-  return empty() ? Vector() : sum_of([&](std::size_t i) { return step_.excess(i); });
+  return empty() ? Vector() : sum_of([&](std::size_t i) { return step_.relative_modulus(i); });
 }
 
 template <int dim>
@@ -93,7 +94,7 @@ template <int dim>
 double LinearMemory<dim>::energy() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < branches_.size(); ++i)
-    sum += 0.5 * step_.excess(i) * (branches_[i] * relaxing_force(branches_[i]));
+    sum += 0.5 * step_.relative_modulus(i) * (branches_[i] * relaxing_force(branches_[i]));
   return sum;
 }
 
@@ -101,7 +102,8 @@ template <int dim>
 double LinearMemory<dim>::dissipation_rate() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < branches_.size(); ++i)
-    sum += step_.excess(i) / step_.time(i) * (branches_[i] * relaxing_force(branches_[i]));
+    sum +=
+        step_.relative_modulus(i) / step_.time(i) * (branches_[i] * relaxing_force(branches_[i]));
   return sum;
 }
 
@@ -122,7 +124,7 @@ void PointMemory<dim>::start_step(double duration) {
   step_.set(duration);
   carried_.values = -stiffening() * stress_.values;
   for (std::size_t i = 0; i < branches_.size(); ++i)
-    carried_.values += step_.excess(i) * step_.keep(i) * branches_[i].values;
+    carried_.values += step_.relative_modulus(i) * step_.decay(i) * branches_[i].values;
 }
 
 template <int dim>
@@ -138,7 +140,7 @@ void PointMemory<dim>::advance(const Vector& displacement) {
       Parts::stresses);
   for (std::size_t i = 0; i < branches_.size(); ++i)
     branches_[i].values =
-        step_.keep(i) * branches_[i].values + step_.gain(i) * (stress_.values - before);
+        step_.decay(i) * branches_[i].values + step_.gain(i) * (stress_.values - before);
 }
 
 template <int dim>
@@ -146,7 +148,7 @@ PointStresses PointMemory<dim>::past() const {
   PointStresses sum = stress_;
   sum.values.setZero();
   for (std::size_t i = 0; i < branches_.size(); ++i)
-    sum.values += step_.excess(i) * branches_[i].values;
+    sum.values += step_.relative_modulus(i) * branches_[i].values;
   return sum;
 }
 

@@ -2,10 +2,11 @@
 /// side.
 ///
 /// A branch's stress h_i obeys h_i' + h_i/tau_i = s', s the stress after long times, and adds
-/// b_i h_i to it. Over a step in which s changes at a constant rate, h_i' = keep_i h_i + gain_i (s'
-/// - s), primes at its end (meshes::Fading): exact for such a step, of second order for others. So
-/// a step is one of an elastic body, s' enlarged by sum b_i gain_i, under a stress that is known at
-/// its start, sum b_i (keep_i h_i - gain_i s).
+/// b_i h_i to it. Over a step in which s changes at a constant rate, h_i' = decay_i h_i + gain_i
+/// (s'
+/// - s), primes at its end (meshes::PronyRecursion): exact for such a step, of second order for
+/// others. So a step is one of an elastic body, s' enlarged by sum b_i gain_i, under a stress that
+/// is known at its start, sum b_i (decay_i h_i - gain_i s).
 ///
 /// With `Relaxation::bulk` s is the whole stress, else the part that moduli of shear make: of
 /// lambda = -2G/3 and G at small strain, of W less m/2 h(J)² at large strain. It scales with them,
@@ -38,9 +39,9 @@ class FadingStep {
   std::size_t size() const { return relaxation_.branches.size(); }
   /// The length of the next steps [s], > 0. False when it is the last one's but for round-off.
   bool set(double duration);
-  double keep(std::size_t i) const { return fading_[i].keep; }
+  double decay(std::size_t i) const { return fading_[i].decay; }
   double gain(std::size_t i) const { return fading_[i].gain; }
-  double excess(std::size_t i) const { return relaxation_.excess(i); }
+  double relative_modulus(std::size_t i) const { return relaxation_.relative_modulus(i); }
   double time(std::size_t i) const { return relaxation_.branches[i].time; }
   /// sum b_i gain_i; 0 before a step is set.
   double stiffening() const;
@@ -48,7 +49,7 @@ class FadingStep {
  private:
   meshes::Relaxation relaxation_;
   double duration_ = 0.0;
-  std::vector<meshes::Fading> fading_;
+  std::vector<meshes::PronyRecursion> fading_;
 };
 
 /// Small strain: h_i is the stress that the relaxing moduli make of a displacement d_i, d_i' +
@@ -68,7 +69,8 @@ class LinearMemory {
   double stiffening() const { return step_.stiffening(); }
   /// Of K_b; not of an empty memory.
   ElementKernel<dim>& kernel() const { return *kernel_; }
-  /// Adds to the load of a step from u what is remembered, K_b sum b_i (gain_i u - keep_i d_i) [N].
+  /// Adds to the load of a step from u what is remembered, K_b sum b_i (gain_i u - decay_i d_i)
+  /// [N].
   void add_load(const Vector& u, Vector& load) const;
   /// Ends a step.
   void advance(const Vector& from, const Vector& to);
@@ -104,7 +106,7 @@ class PointMemory {
   /// Prepares a step of that length [s] from the present state.
   void start_step(double duration);
   double stiffening() const { return step_.stiffening(); }
-  /// sum b_i (keep_i h_i - gain_i s) of the step; null of an empty memory.
+  /// sum b_i (decay_i h_i - gain_i s) of the step; null of an empty memory.
   const PointStresses* carried() const { return empty() ? nullptr : &carried_; }
   /// Ends the step at a displacement.
   void advance(const Vector& displacement);

@@ -60,8 +60,9 @@ CellForces::CellForces(const CellLattice& cells, const CellMaterial& material, T
 }
 
 CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
-                             VectorField& force, const kernel::Past& past) {
-  return add(past.values == nullptr ? sweep_ : fading_sweep_, displacement, velocity, force, past);
+                             VectorField& force, const kernel::History& history) {
+  return add(history.values == nullptr ? sweep_ : fading_sweep_, displacement, velocity, force,
+             history);
 }
 
 CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
@@ -79,10 +80,10 @@ CellExtremes CellForces::add(const VectorField& displacement, const VectorField&
 
 CellExtremes CellForces::add(kernel::CellSweep sweep, const VectorField& displacement,
                              const VectorField& velocity, VectorField& force,
-                             const kernel::Past& past) {
+                             const kernel::History& history) {
   kernel::CellArrays arrays = cell_arrays(*cells_, displacement);
   arrays.material = material_;
-  arrays.past = past;
+  arrays.history = history;
   for (std::size_t c = 0; c < 3; ++c) {
     arrays.velocity[c] = velocity.component[c].data();
     arrays.force[c] = force.component[c].data();

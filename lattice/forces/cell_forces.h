@@ -38,17 +38,17 @@ class CellForces {
   /// include damping; the velocity is not read). Others: at u, and with damping at v if tau > 0.
   /// The result is the same bits for any number of threads and any register width.
   /// Where a cell is turned inside out (J <= 0) forces are meaningless and smallest_jacobian says
-  /// so. `past`: what cells with a law of large strain remember.
+  /// so. `history`: what cells with a law of large strain remember.
   CellExtremes add(const VectorField& displacement, const VectorField& velocity, VectorField& force,
-                   const kernel::Past& past = {});
-  /// The same without a past, and what the cells store at this displacement [J], as cell_energy()
-  /// but for round-off: where velocities enter, found on the way.
+                   const kernel::History& history = {});
+  /// The same without a history, and what the cells store at this displacement [J], as
+  /// cell_energy() but for round-off: where velocities enter, found on the way.
   CellExtremes add(const VectorField& displacement, const VectorField& velocity, VectorField& force,
                    double& energy);
 
  private:
   CellExtremes add(kernel::CellSweep sweep, const VectorField& displacement,
-                   const VectorField& velocity, VectorField& force, const kernel::Past& past);
+                   const VectorField& velocity, VectorField& force, const kernel::History& history);
 
   const CellLattice* cells_;
   CellMaterial material_;

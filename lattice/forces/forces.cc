@@ -49,19 +49,19 @@ CellExtremes InternalForces::note(const State& state, double time, RelaxingMemor
 
 CellExtremes InternalForces::find(const State& state, double time, const RelaxingMemory& memory,
                                   RelaxingMemory* noted, VectorField& force, double* energy) {
-  kernel::Past past;
+  kernel::History history;
   const bool lags = !memory.lag.empty(), apart = lags && !model_->relaxation.bulk;
   if (!memory.empty()) {
-    past = find_past(*model_, memory, time, noted != nullptr, fading_);
-    if (past.held) noted = nullptr;
-    if (noted != nullptr && !noted->cells.empty()) past.noted = noted->cells.data();
+    history = find_history(*model_, memory, time, noted != nullptr, fading_);
+    if (history.held) noted = nullptr;
+    if (noted != nullptr && !noted->cells.empty()) history.noted = noted->cells.data();
   }
   const VectorField& displacement = rates_ ? state.displacement : damped(state);
-  if (lags && !apart) add_lags(*model_, memory, past, state, *team_, damped_, noted);
-  const CellExtremes extremes = respond(displacement, state, past, force, energy);
+  if (lags && !apart) add_lags(*model_, memory, history, state, *team_, damped_, noted);
+  const CellExtremes extremes = respond(displacement, state, history, force, energy);
   if (apart) {
     for (auto& component : lag_.component) std::fill(component.begin(), component.end(), 0.0);
-    add_lags(*model_, memory, past, state, *team_, lag_, noted);
+    add_lags(*model_, memory, history, state, *team_, lag_, noted);
     shear_.add(lag_, state.velocity, force);
   }
   if (noted != nullptr) noted->time = time;
@@ -69,7 +69,8 @@ CellExtremes InternalForces::find(const State& state, double time, const Relaxin
 }
 
 CellExtremes InternalForces::respond(const VectorField& displacement, const State& state,
-                                     const kernel::Past& past, VectorField& force, double* energy) {
+                                     const kernel::History& history, VectorField& force,
+                                     double* energy) {
   if (springs_ != nullptr) {
     add_springs(displacement, state, force);
   } else {
@@ -77,14 +78,14 @@ CellExtremes InternalForces::respond(const VectorField& displacement, const Stat
   }
   // Damping of small strains and what relaxes there change the displacement that cells see.
   const bool on_the_way =
-      springs_ == nullptr && &displacement == &state.displacement && past.values == nullptr;
+      springs_ == nullptr && &displacement == &state.displacement && history.values == nullptr;
   if (energy != nullptr && on_the_way) {
     const CellExtremes extremes = cells_.add(displacement, state.velocity, force, *energy);
     *energy *= model_->sector.count();
     return extremes;
   }
   if (energy != nullptr) *energy = elastic_energy(*model_, state, *team_);
-  return cells_.add(displacement, state.velocity, force, past);
+  return cells_.add(displacement, state.velocity, force, history);
 }
 
 const VectorField& InternalForces::damped(const State& state) {

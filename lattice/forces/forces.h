@@ -42,7 +42,7 @@ class InternalForces {
   CellExtremes find(const State& state, double time, const RelaxingMemory& memory,
                     RelaxingMemory* noted, VectorField& force, double* energy);
   CellExtremes respond(const VectorField& displacement, const State& state,
-                       const kernel::Past& past, VectorField& force, double* energy);
+                       const kernel::History& history, VectorField& force, double* energy);
   void add_springs(const VectorField& displacement, const State& state, VectorField& force);
   void clear(VectorField& force);
 
@@ -56,7 +56,7 @@ class InternalForces {
   VectorField damped_;                      ///< u + tau v, and what relaxes
   VectorField lag_;                         ///< what relaxes where the bulk does not
   mutable State lagging_;                   ///< scratch
-  std::vector<kernel::Fading> fading_;
+  std::vector<kernel::PronyBranch> fading_;
 };
 
 }  // namespace fingertip::lattice

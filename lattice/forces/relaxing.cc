@@ -30,36 +30,37 @@ RelaxingMemory::RelaxingMemory(const LatticeModel& model) {
   lag.assign(2 + model.relaxation.branches.size(), displacement);
 }
 
-kernel::Past find_past(const LatticeModel& model, const RelaxingMemory& memory, double time,
-                       bool may_hold, std::vector<kernel::Fading>& fading) {
+kernel::History find_history(const LatticeModel& model, const RelaxingMemory& memory, double time,
+                             bool may_hold, std::vector<kernel::PronyBranch>& fading) {
   const meshes::Relaxation& relaxation = model.relaxation;
   double shortest = std::numeric_limits<double>::infinity();
   for (const auto& branch : relaxation.branches) shortest = std::min(shortest, branch.time);
   const double length = interval * shortest, passed = time - memory.time;
-  kernel::Past past;
-  past.held = may_hold && passed < length;
-  past.second = passed / length;
-  past.first = 1.0 - past.second;
-  past.branches = int(relaxation.branches.size());
-  past.values = memory.cells.empty() ? nullptr : memory.cells.data();
+  kernel::History history;
+  history.held = may_hold && passed < length;
+  history.second = passed / length;
+  history.first = 1.0 - history.second;
+  history.branches = int(relaxation.branches.size());
+  history.values = memory.cells.empty() ? nullptr : memory.cells.data();
   fading.clear();
   for (std::size_t n = 0; n < relaxation.branches.size(); ++n) {
-    const double own = relaxation.branches[n].time, b = relaxation.excess(n);
-    const meshes::Fading now(passed, own), later(length, own);
-    fading.push_back({now.keep, b * now.gain, later.keep});
-    past.share += b * now.gain;
-    past.gain_now += b;
-    past.gain_later += b * later.gain;
+    const double own = relaxation.branches[n].time, b = relaxation.relative_modulus(n);
+    const meshes::PronyRecursion now(passed, own), later(length, own);
+    fading.push_back({now.decay, b * now.gain, later.decay});
+    history.share += b * now.gain;
+    history.gain_now += b;
+    history.gain_later += b * later.gain;
   }
-  past.fading = fading.data();
-  return past;
+  history.fading = fading.data();
+  return history;
 }
 
-void add_lags(const LatticeModel& model, const RelaxingMemory& memory, const kernel::Past& past,
-              const State& state, Team& team, VectorField& sum, RelaxingMemory* noted) {
+void add_lags(const LatticeModel& model, const RelaxingMemory& memory,
+              const kernel::History& history, const State& state, Team& team, VectorField& sum,
+              RelaxingMemory* noted) {
   const std::vector<std::uint32_t>& blocks = model.blocks;
-  const std::size_t branches = std::size_t(past.branches);
-  const double share = past.share, at_start = past.first, at_end = past.second;
+  const std::size_t branches = std::size_t(history.branches);
+  const double share = history.share, at_start = history.first, at_end = history.second;
   /// Of eight points from `first` on.
   const auto hold = [&, share, at_start, at_end](std::size_t c, std::size_t first) {
     const double *u = state.displacement.component[c].data() + first,
@@ -76,11 +77,11 @@ void add_lags(const LatticeModel& model, const RelaxingMemory& memory, const ker
     double change[lanes], total[lanes] = {}, later[lanes] = {};
     for (std::size_t i = 0; i < lanes; ++i) change[i] = u[i] - before[i];
     for (std::size_t n = 0; n < branches; ++n) {
-      const kernel::Fading f = past.fading[n];
+      const kernel::PronyBranch f = history.fading[n];
       const double* h = memory.lag[n].component[c].data() + first;
       double now[lanes];
       for (std::size_t i = 0; i < lanes; ++i) {
-        now[i] = f.keep * h[i] + f.gain * change[i];
+        now[i] = f.decay * h[i] + f.gain * change[i];
         total[i] += now[i];
         later[i] += f.later * now[i];
       }
@@ -91,14 +92,15 @@ void add_lags(const LatticeModel& model, const RelaxingMemory& memory, const ker
     double *start = noted->lag[branches].component[c].data() + first,
            *end = noted->lag[branches + 1].component[c].data() + first;
     for (std::size_t i = 0; i < lanes; ++i) {
-      start[i] = total[i] - past.gain_now * u[i];
-      end[i] = later[i] - past.gain_later * u[i];
+      start[i] = total[i] - history.gain_now * u[i];
+      end[i] = later[i] - history.gain_later * u[i];
     }
     std::copy_n(u, lanes, noted->displacement.component[c].data() + first);
   };
   team.split(blocks.size(), lagging_at_once, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t b = begin; b < end; ++b) past.held ? hold(c, blocks[b]) : fade(c, blocks[b]);
+      for (std::size_t b = begin; b < end; ++b)
+        history.held ? hold(c, blocks[b]) : fade(c, blocks[b]);
   });
 }
 
@@ -107,9 +109,9 @@ BranchEnergy branch_energy(const LatticeModel& model, const RelaxingMemory& memo
   BranchEnergy energy;
   if (memory.lag.empty()) return energy;
   for (std::size_t n = 0; n < model.relaxation.branches.size(); ++n) {
-    const double own = model.relaxation.branches[n].time, b = model.relaxation.excess(n);
-    const meshes::Fading fading(time - memory.time, own);
-    const double keep = fading.keep, gain = fading.gain * b;
+    const double own = model.relaxation.branches[n].time, b = model.relaxation.relative_modulus(n);
+    const meshes::PronyRecursion fading(time - memory.time, own);
+    const double decay = fading.decay, gain = fading.gain * b;
     team.split(model.blocks.size(), lagging_at_once, [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = 0; c < 3; ++c) {
         const double *u = state.displacement.component[c].data(),
@@ -118,7 +120,7 @@ BranchEnergy branch_energy(const LatticeModel& model, const RelaxingMemory& memo
         double* now = lagging.displacement.component[c].data();
         for (std::size_t block = begin; block < end; ++block)
           for (std::size_t i = model.blocks[block]; i < model.blocks[block] + lanes; ++i)
-            now[i] = keep * h[i] + gain * (u[i] - before[i]);
+            now[i] = decay * h[i] + gain * (u[i] - before[i]);
       }
     });
     const CellLattice& cells = model.cell_lattice;

@@ -17,7 +17,7 @@ struct RelaxingMemory {
   double time = 0.0;         ///< when it was noted [s]
   VectorField displacement;  ///< u then [m]
   /// b d of every branch then [m], and of their sum less its share of u, which all of them make of
-  /// the present, what it is at both ends of the interval (find_past).
+  /// the present, what it is at both ends of the interval (find_history).
   std::vector<VectorField> lag;
   std::vector<kernel::Lanes> cells;  ///< at large strain (cell_kernel.h)
 
@@ -31,13 +31,14 @@ struct RelaxingMemory {
 /// How the branches have faded from `memory` to a time not before its own, for a constant rate of
 /// what drives them; exact, unless it `may_hold` and was noted so lately that what all of them hold
 /// together can be told from one straight line. `fading` is where it keeps what it points to.
-kernel::Past find_past(const LatticeModel& model, const RelaxingMemory& memory, double time,
-                       bool may_hold, std::vector<kernel::Fading>& fading);
+kernel::History find_history(const LatticeModel& model, const RelaxingMemory& memory, double time,
+                             bool may_hold, std::vector<kernel::PronyBranch>& fading);
 
 /// At small strain: sum += b d of every branch at a state. `noted`: the memory itself, which is
 /// brought to that state but for its time, or null. Allocates nothing.
-void add_lags(const LatticeModel& model, const RelaxingMemory& memory, const kernel::Past& past,
-              const State& state, Team& team, VectorField& sum, RelaxingMemory* noted = nullptr);
+void add_lags(const LatticeModel& model, const RelaxingMemory& memory,
+              const kernel::History& history, const State& state, Team& team, VectorField& sum,
+              RelaxingMemory* noted = nullptr);
 
 /// What the branches hold and lose; 0 at large strain, where the stress of a branch is not known by
 /// an energy.

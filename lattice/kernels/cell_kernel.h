@@ -14,14 +14,14 @@ namespace fingertip::lattice::kernel {
 /// xy), and dW/dk but for bending, by components and modes.
 inline constexpr int remembered = 18;
 
-/// Of a branch since its values were noted: h = keep h + gain times the change.
-struct Fading {
-  double keep = 0.0, gain = 0.0;
-  double later = 0.0;  ///< keep at the end of an interval that begins now
+/// Of a branch since its values were noted: h = decay h + gain times the change.
+struct PronyBranch {
+  double decay = 0.0, gain = 0.0;
+  double later = 0.0;  ///< decay at the end of an interval that begins now
 };
 /// How all branches together have faded.
-struct Past {
-  const Fading* fading = nullptr;
+struct History {
+  const PronyBranch* fading = nullptr;
   int branches = 0;
   /// Within an interval the sum of all branches is share times what drives them plus a part that
   /// hardly bends in time: `first` and `second` times what it was made of when they were noted.
@@ -43,7 +43,7 @@ struct CellArrays {
   std::ptrdiff_t row, plane;
   double spacing;
   CellMaterial material;
-  Past past;  ///< read by kernels that know it only
+  History history;  ///< read by kernels that know it only
 };
 
 /// Extremes over cells that a sweep has seen; rest counts among them. The order of sweeps does not

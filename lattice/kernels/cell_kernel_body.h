@@ -187,8 +187,8 @@ struct CellBody : CellResponse<Pack> {
       } else if constexpr (Law == CellLawKind::volume) {
         Response::template answer_volume<Rates>(m, area, u, velocity, extremes, take);
       } else {
-        const typename Response::Memory past{a.past, number, lane};
-        Response::template answer_large<Law, Rates, Fades, Whole>(m, area, u, velocity, past,
+        const typename Response::Memory history{a.history, number, lane};
+        Response::template answer_large<Law, Rates, Fades, Whole>(m, area, u, velocity, history,
                                                                   extremes, take);
       }
     }

@@ -109,34 +109,35 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
 
   /// What cells remember (cell_kernel.h), of a block from the pack's first lane on.
   struct Memory {
-    const Past& past;
+    const History& history;
     std::size_t block;
     std::ptrdiff_t lane;
 
     [[gnu::always_inline]] std::ptrdiff_t at(int row, int k) const {
-      return (std::ptrdiff_t(block) * (past.branches + 3) + row) * remembered + k;
+      return (std::ptrdiff_t(block) * (history.branches + 3) + row) * remembered + k;
     }
     [[gnu::always_inline]] Pack value(int row, int k) const {
-      return load(past.values[at(row, k)].at + lane);
+      return load(history.values[at(row, k)].at + lane);
     }
     [[gnu::always_inline]] void note(int row, int k, const Pack& value) const {
-      store(past.noted[at(row, k)].at + lane, value);
+      store(history.noted[at(row, k)].at + lane, value);
     }
     /// What the branches make of value k, which is now `now`.
     [[gnu::always_inline]] Pack fade(int k, const Pack& now) const {
-      const int first = 1 + past.branches;
-      if (past.held)
-        return Pack(past.share) * now +
-               (Pack(past.first) * value(first, k) + Pack(past.second) * value(first + 1, k));
-      return past.noted != nullptr ? fade_from_note<true>(k, now) : fade_from_note<false>(k, now);
+      const int first = 1 + history.branches;
+      if (history.held)
+        return Pack(history.share) * now +
+               (Pack(history.first) * value(first, k) + Pack(history.second) * value(first + 1, k));
+      return history.noted != nullptr ? fade_from_note<true>(k, now)
+                                      : fade_from_note<false>(k, now);
     }
     template <bool Noting>
     [[gnu::always_inline]] Pack fade_from_note(int k, const Pack& now) const {
       const Pack change = now - value(0, k);
       Pack sum = 0.0, later = 0.0;
-      for (int n = 0; n < past.branches; ++n) {
-        const Fading& f = past.fading[n];
-        const Pack h = Pack(f.keep) * value(1 + n, k) + Pack(f.gain) * change;
+      for (int n = 0; n < history.branches; ++n) {
+        const PronyBranch& f = history.fading[n];
+        const Pack h = Pack(f.decay) * value(1 + n, k) + Pack(f.gain) * change;
         sum = sum + h;
         if constexpr (!Noting) continue;
         later = later + Pack(f.later) * h;
@@ -144,8 +145,8 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
       }
       if constexpr (Noting) {
         note(0, k, now);
-        note(1 + past.branches, k, sum - Pack(past.gain_now) * now);
-        note(2 + past.branches, k, later - Pack(past.gain_later) * now);
+        note(1 + history.branches, k, sum - Pack(history.gain_now) * now);
+        note(2 + history.branches, k, later - Pack(history.gain_later) * now);
       }
       return sum;
     }
@@ -208,7 +209,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   template <CellLawKind Kind, bool Rates, bool Fades, bool Whole, typename Velocity, typename Take>
   [[gnu::always_inline]] static void answer_large(const CellMaterial& m, const Pack& area,
                                                   const Field& u, const Velocity& velocity,
-                                                  const Memory& past, Extremes& extremes,
+                                                  const Memory& history, Extremes& extremes,
                                                   const Take& take) {
     constexpr bool network = Kind == CellLawKind::network;
     using Hyperelastic = kernel::Hyperelastic<Pack>;
@@ -257,11 +258,11 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
            area * (R.yz + pressure * S.yz) + mode_products(kappa.y, kappa.z),
            area * (R.zx + pressure * S.zx) + mode_products(kappa.z, kappa.x),
            area * (R.xy + pressure * S.xy) + mode_products(kappa.x, kappa.y)};
-      Q = {past.fade(0, S.xx), past.fade(1, S.yy), past.fade(2, S.zz),
-           past.fade(3, S.yz), past.fade(4, S.zx), past.fade(5, S.xy)};
+      Q = {history.fade(0, S.xx), history.fade(1, S.yy), history.fade(2, S.zz),
+           history.fade(3, S.yz), history.fade(4, S.zx), history.fade(5, S.xy)};
       HourglassModes held;
       for_components([&](auto c) __attribute__((always_inline)) {
-        entry<c()>(held) = past.fade(6 + 4 * c(), stiffer, entry<c()>(moment));
+        entry<c()>(held) = history.fade(6 + 4 * c(), stiffer, entry<c()>(moment));
       });
       for_components([&](auto c) __attribute__((always_inline)) {
         entry<c()>(faded) = along(entry<c()>(T), held);

@@ -37,7 +37,7 @@ double Relaxation::instantaneous_ratio() const {
 double Relaxation::modulus(double time) const {
   double sum = 1.0;
   for (std::size_t i = 0; i < branches.size(); ++i)
-    sum += excess(i) * std::exp(-time / branches[i].time);
+    sum += relative_modulus(i) * std::exp(-time / branches[i].time);
   return sum;
 }
 
@@ -45,7 +45,7 @@ double Relaxation::storage(double frequency) const {
   double sum = 1.0;
   for (std::size_t i = 0; i < branches.size(); ++i) {
     const double x = frequency * branches[i].time;
-    sum += excess(i) * x * x / (1.0 + x * x);
+    sum += relative_modulus(i) * x * x / (1.0 + x * x);
   }
   return sum;
 }
@@ -54,14 +54,14 @@ double Relaxation::loss(double frequency) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < branches.size(); ++i) {
     const double x = frequency * branches[i].time;
-    sum += excess(i) * x / (1.0 + x * x);
+    sum += relative_modulus(i) * x / (1.0 + x * x);
   }
   return sum;
 }
 
-Fading::Fading(double duration, double time) {
+PronyRecursion::PronyRecursion(double duration, double time) {
   const double x = duration / time;
-  keep = std::exp(-x);
+  decay = std::exp(-x);
   if (x > 0.0) gain = -std::expm1(-x) / x;
 }
 

@@ -34,7 +34,7 @@ struct Relaxation {
   /// G0/G_inf = 1/(1 - sum g_i), >= 1.
   double instantaneous_ratio() const;
   /// b of branch i.
-  double excess(std::size_t i) const { return branches[i].share * instantaneous_ratio(); }
+  double relative_modulus(std::size_t i) const { return branches[i].share * instantaneous_ratio(); }
   /// G(t)/G_inf, t >= 0 [s].
   double modulus(double time) const;
   /// Storage and loss modulus over G_inf at a circular frequency [rad/s].
@@ -42,14 +42,14 @@ struct Relaxation {
   double loss(double frequency) const;
 };
 
-/// A branch over a while during which s changes at a constant rate: h at its end is `keep` times h
+/// A branch over a while during which s changes at a constant rate: h at its end is `decay` times h
 /// at its start plus `gain` times b times the change of s. Exact.
-struct Fading {
-  double keep = 1.0;  ///< exp(-x), x = duration over tau
-  double gain = 1.0;  ///< (1 - exp(-x))/x
+struct PronyRecursion {
+  double decay = 1.0;  ///< exp(-x), x = duration over tau
+  double gain = 1.0;   ///< (1 - exp(-x))/x
 
   /// duration >= 0 [s], time > 0 [s].
-  Fading(double duration, double time);
+  PronyRecursion(double duration, double time);
 };
 
 }  // namespace fingertip::meshes::inline rubber

@@ -93,8 +93,8 @@ TEST(FadingCourse, RampAndHoldAtSmallStrainIsTheConvolution) {
       double exact = on / ramp;
       for (std::size_t i = 0; i < 2; ++i) {
         const double tau = relaxation.branches[i].time;
-        exact +=
-            relaxation.excess(i) * tau / ramp * -std::expm1(-on / tau) * std::exp(-(t - on) / tau);
+        exact += relaxation.relative_modulus(i) * tau / ramp * -std::expm1(-on / tau) *
+                 std::exp(-(t - on) / tau);
       }
       exact *= small_modulus(kind) * 20e3 * amount;
       EXPECT_NEAR(found(p), exact, 1e-6 * exact) << name(kind) << " " << t;

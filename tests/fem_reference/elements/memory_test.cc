@@ -146,7 +146,7 @@ TEST(LinearMemory, RampAndHoldIsTheConvolution) {
       time = next;
       double branches = 0.0;
       for (std::size_t i = 0; i < 2; ++i)
-        branches += job.rubber.relaxation.excess(i) * amount *
+        branches += job.rubber.relaxation.relative_modulus(i) * amount *
                     branch_after(time, rise, job.rubber.relaxation.branches[i].time);
       EXPECT_NEAR(shear.stress()(0, 1) / (G * (s + branches)), 1.0, 1e-9) << time;
       const double relaxing_modulus = bulk ? lambda + 2 * G : 4.0 / 3.0 * G;
@@ -235,7 +235,7 @@ Eigen::Matrix3d nominal_after(const ReferenceJob& job,
                             c = -(g + dt / 2 * b + middle) / tau, d = -(g + dt * c + end) / tau;
       g += dt / 6 * (a + 2 * b + 2 * c + d);
     }
-    total += job.rubber.relaxation.excess(i) * (g + s);
+    total += job.rubber.relaxation.relative_modulus(i) * (g + s);
   }
   return F * total;
 }

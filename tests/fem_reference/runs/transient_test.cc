@@ -101,7 +101,7 @@ TEST(GeneralisedAlpha, FollowsAModeOfARubberThatRelaxes) {
   const double omega = vibration.omega, tau = 0.7 / omega, time = 8.0 / omega;
   ReferenceJob job;
   job.rubber.relaxation = {{{0.4, tau}}, true};
-  const double b = job.rubber.relaxation.excess(0);
+  const double b = job.rubber.relaxation.relative_modulus(0);
   Eigen::Matrix3d rates;
   rates << 0, 1, 0, -omega * omega, 0, -b * omega * omega, 0, 1, -1 / tau;
   const Eigen::EigenSolver<Eigen::Matrix3d> solver(rates);

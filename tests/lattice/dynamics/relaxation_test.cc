@@ -101,8 +101,8 @@ TEST(RelaxingLattice, RampAndHoldInShearIsExact) {
       double exact = strain(t);
       for (std::size_t i = 0; i < 2; ++i) {
         const double tau = two.branches[i].time, on = std::min(t, ramp);
-        exact +=
-            two.excess(i) * tau / ramp * (1.0 - std::exp(-on / tau)) * std::exp(-(t - on) / tau);
+        exact += two.relative_modulus(i) * tau / ramp * (1.0 - std::exp(-on / tau)) *
+                 std::exp(-(t - on) / tau);
       }
       EXPECT_NEAR(stress[n] / exact, 1.0, 1e-10) << t;
     }
@@ -246,7 +246,7 @@ TEST(RelaxingLattice, LargeStrainKeepsAStressOnTheRestShape) {
     for (std::size_t i = 0; i < 2; ++i)
       for (int n = 1; n <= steps; ++n) {
         const double tau = two.branches[i].time, rest = step * (steps - n);
-        exact += two.excess(i) * tau / step *
+        exact += two.relative_modulus(i) * tau / step *
                  (std::exp(-rest / tau) - std::exp(-(rest + step) / tau)) *
                  (after_long_times[std::size_t(n)] - after_long_times[std::size_t(n - 1)]);
       }
@@ -277,8 +277,8 @@ TEST(RelaxingLattice, LargeStrainIsElasticAtOnceAndTurnsAlong) {
     double left = 1.0;
     for (std::size_t n = 0; n < 2; ++n) {
       const double tau = two.branches[n].time;
-      left += two.excess(n) * meshes::Fading(first, tau).gain *
-              meshes::Fading(second - first, tau).keep;
+      left += two.relative_modulus(n) * meshes::PronyRecursion(first, tau).gain *
+              meshes::PronyRecursion(second - first, tau).decay;
     }
     for (const std::size_t i : model.particles)
       EXPECT_LT((later.at(i) - left * elastic.at(i)).norm(), 1e-11 * scale);

@@ -37,17 +37,17 @@ TEST(Relaxation, StorageAndLossAreTheTransformOfTheModulus) {
 TEST(Relaxation, FadingIsExactForAConstantRate) {
   const double time = 0.2, rate = 3.0, duration = 0.5;
   double h = 1.7;
-  const Fading fading(duration, time);
-  const double exact = fading.keep * h + fading.gain * rate * duration;
+  const PronyRecursion fading(duration, time);
+  const double exact = fading.decay * h + fading.gain * rate * duration;
   constexpr int steps = 200000;
   for (int i = 0; i < steps; ++i) {
     const double dt = duration / steps, middle = h + 0.5 * dt * (rate - h / time);
     h += dt * (rate - middle / time);
   }
   EXPECT_NEAR(h, exact, 1e-10);
-  EXPECT_EQ(Fading(0.0, time).keep, 1.0);
-  EXPECT_EQ(Fading(0.0, time).gain, 1.0);
-  EXPECT_NEAR(Fading(1e-9, 1.0).gain, 1.0 - 0.5e-9, 1e-15);
+  EXPECT_EQ(PronyRecursion(0.0, time).decay, 1.0);
+  EXPECT_EQ(PronyRecursion(0.0, time).gain, 1.0);
+  EXPECT_NEAR(PronyRecursion(1e-9, 1.0).gain, 1.0 - 0.5e-9, 1e-15);
 }
 
 TEST(Relaxation, RefusesSharesAndTimesThatLeaveNothing) {
