@@ -12,6 +12,7 @@
 
 #include "calibration/files/words.h"
 #include "calibration/material/open_branches.h"
+#include "calibration/material_tests/law_fit.h"
 #include "calibration/statistics/curve_checks.h"
 
 namespace fingertip::calibration {
@@ -32,6 +33,9 @@ constexpr double least_side = 0.1;
 /// Up to this logarithmic strain rubbers are neo-Hookean enough for a modulus [1], and moduli that
 /// differ by more than this factor contradict each other.
 constexpr double small_strain = 0.3, contradiction = 1.3;
+/// A specimen was slack where it bore less than this share of what a taut one would, and its
+/// curve asks for a later origin by so many standard errors.
+constexpr double bears_nothing = 0.2, surely = 5.0;
 /// Stretches that presses ask for, and StrainEnergy's own rule.
 constexpr std::array<double, 2> press_range = {0.5, 2.0};
 /// A prediction that misses by more contradicts the law.
@@ -133,6 +137,88 @@ std::vector<TestPart> parts_of(const MaterialTest& test) {
   return parts;
 }
 
+/// Least squares of a factor on `unit` against `stress`.
+struct OneModulus {
+  OneModulus(const Eigen::VectorXd& unit, const Eigen::VectorXd& stress)
+      : modulus(unit.squaredNorm() > 0.0 ? unit.dot(stress) / unit.squaredNorm() : 0.0),
+        left((stress - modulus * unit).squaredNorm()) {}
+  double modulus, left;
+};
+
+/// Of many values from 0 to `most` the one that leaves least.
+double best_value(double most, const std::function<double(double)>& left) {
+  constexpr int values = 200;
+  double best = 0.0, least = left(0.0);
+  for (int i = 1; i <= values; ++i) {
+    const double at = most * i / values, now = left(at);
+    if (now < least) best = at, least = now;
+  }
+  return best;
+}
+
+/// The strain up to which a specimen was slack, or its plates did not touch: there it bears
+/// nothing, and from there on it is a rubber whose strain counts from that origin. A rubber's
+/// secant modulus, by neo-Hooke, is constant at small strain, or falls. Tissues, and rubbers near
+/// their limit, stiffen from the first strain on, G exp(b strain^p), p = 1 or 2 (Fung 1967; Demiray
+/// 1972), or by a parabola that ends in a straight line (tendons), which no curve does that is flat
+/// and then straight (AIC differs by as_good_aicc at least).
+std::optional<double> slack_of(const MaterialTest& test, const TestPart& part) {
+  const double rest = rest_of(test.kind), common = 1.001 * std::min(small_strain, part.strain);
+  std::vector<std::size_t> small = part.points;
+  std::erase_if(
+      small, [&](std::size_t i) { return strain_size(test.kind, test.deformation[i]) > common; });
+  if (small.size() < 5) return std::nullopt;
+  Eigen::ArrayXd strain(Index(small.size())), size = strain;
+  Eigen::VectorXd stress = strain;
+  for (Index k = 0; k < strain.size(); ++k) {
+    const std::size_t i = small[std::size_t(k)];
+    strain(k) = test.deformation[i] - rest;
+    size(k) = strain_size(test.kind, test.deformation[i]) / common;
+    stress(k) = test.stress[i] / (test.constraint.empty() ? 1.0 : test.constraint[i]);
+  }
+  const auto from = [&](double origin) -> Eigen::VectorXd {
+    return strain.unaryExpr([&](double e) {
+      const double taut = std::copysign(std::max(0.0, std::abs(e) - origin), e);
+      return test_stress({1.0, {}}, test.kind, test.measure, rest + taut);
+    });
+  };
+  const Eigen::ArrayXd whole = from(0.0);
+  double stiffened = OneModulus(whole, stress).left;
+  const double at_rest = stiffened;
+  const auto stiffening = [&](double most, const auto& factor) {
+    const auto left = [&](double b) { return OneModulus(whole * factor(b), stress).left; };
+    stiffened = std::min(stiffened, left(best_value(most, left)));
+  };
+  for (const int power : {1, 2})
+    stiffening(20.0, [&](double b) { return Eigen::ArrayXd((b * size.pow(power)).exp()); });
+  stiffening(1.0, [&](double toe) {
+    return Eigen::ArrayXd((size < toe).select(size / (2.0 * toe), 1.0 - toe / (2.0 * size)));
+  });
+  const double origin = best_value(0.5 * strain.abs().maxCoeff(),
+                                   [&](double at) { return OneModulus(from(at), stress).left; });
+  const OneModulus later(from(origin), stress);
+  const Eigen::ArrayXd before = (strain.abs() < origin).cast<double>();
+  const double borne = std::abs((before * stress.array()).sum()),
+               asked = later.modulus * std::abs((before * whole).sum()),
+               variance = later.left / double(strain.size() - 2);
+  const bool slack = before.sum() >= 2.0 && borne < bears_nothing * asked &&
+                     at_rest - later.left > surely * surely * variance &&
+                     later.left < std::exp(-as_good_aicc / double(strain.size())) * stiffened;
+  return slack ? std::optional(origin) : std::nullopt;
+}
+
+void add_slack(LawFit& result, const std::vector<MaterialTest>& tests) {
+  for (const MaterialTest& test : tests) {
+    if (test.kind == TestKind::volumetric || test.course != TestCourse::slow) continue;
+    for (const TestPart& part : parts_of(test))
+      if (const auto strain = slack_of(test, part))
+        fail(result, part.name + " was slack, or not yet touched by its plates, up to the strain " +
+                         rounded(*strain, 2) +
+                         ": no stress there, and beyond it that of a rubber strained from there. "
+                         "Leave those rows out and measure lengths and strains from there on");
+  }
+}
+
 /// Where moduli of small strain, by neo-Hooke, differ with the way of deforming.
 std::optional<std::string> contradiction_of_moduli(const std::vector<MaterialTest>& tests) {
   const auto tells = [](const MaterialTest& test) {
@@ -206,6 +292,7 @@ void add_contradictions(LawFit& result, const std::vector<MaterialTest>& tests,
   add_open_coefficients(result);
   if (result.times) result.open_branches = open_branches(result.relaxation, *result.times);
   for (const std::string& sentence : result.open_branches) fail(result, sentence);
+  add_slack(result, tests);
   add_misfits(result, tests);
 }
 

@@ -100,8 +100,8 @@ struct LawFit {
   std::vector<std::string> contradictions;
   /// Those of them for which it must not be used as it is; none: it passed its own tests. It fails
   /// where the search did not end, a coefficient ended at a bound, a direction or a branch is open,
-  /// where it is unstable (Drucker), and where it misses a test, or a side of one, by more than
-  /// 15 % (relative_rms) that no sigma explains.
+  /// where it is unstable (Drucker), where it misses a test, or a side of one, by more than 15 %
+  /// (relative_rms) that no sigma explains, and where the specimen was slack at first.
   std::vector<std::string> failed;
   /// Why there is no fit; all but `choice` is then empty.
   std::string failure;

@@ -303,7 +303,7 @@ struct ContactBody : Packs<Pack> {
     for (std::size_t lane = 0; lane < lanes; lane += width) {
       if constexpr (grip == Grip::coulomb) {
         const Vector place = places(group, now, a.now, lane);
-        drag(a, place, gap_and_normal<kind>(a, group, place, lane), lane, memory);
+        return_mapping(a, place, gap_and_normal<kind>(a, group, place, lane), lane, memory);
       }
       const Vector place = places(group, then, a.then, lane);
       const GapAndNormal ahead = gap_and_normal<kind>(a, group, place, lane);

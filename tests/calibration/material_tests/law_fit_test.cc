@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "meshes/base/errors.h"
@@ -221,6 +222,77 @@ TEST(LawFit, TestsThatDifferAsSpecimensDoAreAccepted) {
   const LawFit* best = recommended(ranking);
   ASSERT_NE(best, nullptr);
   EXPECT_TRUE(best->failed.empty()) << best->failed.front();
+}
+
+/// Tension and compression of a rubber whose strain counts from `slack` on, at strains from 1 to 40
+/// %; a column's plates touch there.
+TEST(LawFit, ASlackSpecimenIsAccusedWhicheverLawIsFitted) {
+  const VectorXd rubber = vector_of({8e3, 2e3});
+  const SizedLaw law = sized_law(mooney, rubber);
+  for (const double side : {1.0, -1.0})
+    for (const double slack : {0.0, 0.04, 0.08})
+      for (const unsigned seed : {1u, 2u, 3u}) {
+        std::mt19937 random(seed);
+        MaterialTest test;
+        test.name = "pulled";
+        for (int i = 0; i < 30; ++i) {
+          const double strain = 0.01 + 0.39 * i / 29, taut = std::max(0.0, strain - slack);
+          test.deformation.push_back(1.0 + side * strain);
+          test.stress.push_back(test_stress(law, test.kind, test.measure, 1.0 + side * taut) +
+                                50.0 * normal(random));
+        }
+        if (side < 0.0) {
+          std::ranges::reverse(test.deformation);
+          std::ranges::reverse(test.stress);
+        }
+        SCOPED_TRACE(std::to_string(side) + " slack " + std::to_string(slack));
+        for (const LawChoice& choice : {neo, mooney, yeoh, ogden2}) {
+          const LawFit fit = fit_law(
+              {test, made(mooney, rubber, TestKind::simple_shear, 0.02, 0.5, 20, 50.0, seed)},
+              choice);
+          ASSERT_EQ(tells(fit.failed, "pulled was slack"), slack > 0.0) << name(choice);
+          if (slack == 0.0) continue;
+          const auto& told = *std::ranges::find_if(fit.failed, [](const std::string& each) {
+            return each.find("was slack") != each.npos;
+          });
+          const std::string words = "up to the strain ";
+          EXPECT_NEAR(std::stod(told.substr(told.find(words) + words.size())), slack, 0.005);
+        }
+      }
+}
+
+/// Tissues (Fung's exponential, Ogden's of a high exponent, a crimped tendon that bears from the
+/// first strain on) and a rubber near its limit are J-shaped, and never slack.
+TEST(LawFit, AStiffeningTestIsNotSlack) {
+  const auto exponential = [](double rate) {
+    return [rate](double strain) { return 1e3 * std::expm1(rate * strain); };
+  };
+  const auto tendon = [](double strain) {
+    return 1e6 * (strain < 0.03 ? strain * strain / 0.06 : strain - 0.015);
+  };
+  const auto limited = [](double strain) {
+    return test_stress(sized_law(gent, vector_of({20e3, 0.4})), TestKind::uniaxial,
+                       StressMeasure::nominal, 1.0 + strain);
+  };
+  const auto ogden = [](double strain) {
+    return test_stress(sized_law({RubberLaw::ogden, 1}, vector_of({1e3, 20.0})), TestKind::uniaxial,
+                       StressMeasure::nominal, 1.0 + strain);
+  };
+  const std::vector<std::function<double(double)>> tissues = {
+      exponential(5.0), exponential(20.0), exponential(50.0), tendon, limited, ogden};
+  for (std::size_t which = 0; which < tissues.size(); ++which)
+    for (const unsigned seed : {1u, 2u, 3u}) {
+      std::mt19937 random(seed);
+      MaterialTest test;
+      test.name = "pulled";
+      for (int i = 0; i < 30; ++i) {
+        const double strain = 0.005 + 0.295 * i / 29;
+        test.deformation.push_back(1.0 + strain);
+        test.stress.push_back(tissues[which](strain) +
+                              0.005 * tissues[which](0.3) * normal(random));
+      }
+      EXPECT_FALSE(tells(fit_law({test}, neo).failed, "was slack")) << which << ' ' << seed;
+    }
 }
 
 /// A scatter of a third is not the law's, where sigma says so; without it nobody can know.

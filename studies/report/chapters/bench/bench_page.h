@@ -8,7 +8,7 @@
 
 namespace fingertip::studies::reporting {
 
-/// From bench.json, and history.json where there is one. What is damaged is left out and noted in
+/// From bench.json. What is damaged is left out and noted in
 /// `reader`.
 Page bench_page(const std::filesystem::path& run_folder, FolderReader& reader);
 
