@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline contact_laws {
 
 namespace {
 
@@ -41,4 +41,4 @@ HydroelasticBall fitted_hydroelastic_ball(const ForceCurve& curve, const meshes:
   return ball;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline contact_laws

@@ -4,7 +4,7 @@
 
 #include "calibration/contact_laws/pressure_law.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline contact_laws {
 
 /// p = modulus (1 - r/radius), r from the centre.
 struct HydroelasticBall {
@@ -22,4 +22,4 @@ struct HydroelasticBall {
 HydroelasticBall fitted_hydroelastic_ball(const ForceCurve& curve, const meshes::Obstacle& obstacle,
                                           double radius);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline contact_laws

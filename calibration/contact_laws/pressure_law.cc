@@ -15,7 +15,7 @@
 #include "meshes/press/obstacle.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline contact_laws {
 
 namespace {
 
@@ -219,4 +219,4 @@ PressurePolynomial fitted_line(const ForceCurve& curve, const GapField& field) {
   return {sized(curve, field, std::vector<PressurePolynomial>{{1.0, 0.0, 0.0}})[0], 0.0, 0.0};
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline contact_laws

@@ -13,7 +13,7 @@
 #include "meshes/press/obstacle.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline contact_laws {
 
 /// Gaps between a finger and an obstacle at first touch, over the projected area of what may touch.
 struct GapField {
@@ -82,4 +82,4 @@ PressurePolynomial fitted_polynomial(const ForceCurve& curve, const GapField& fi
 /// H.
 PressurePolynomial fitted_line(const ForceCurve& curve, const GapField& field);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline contact_laws

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline contact_laws {
 
 namespace {
 
@@ -93,4 +93,4 @@ SoftContact fitted_soft_contact(const ForceCurve& curve) {
   return best;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline contact_laws

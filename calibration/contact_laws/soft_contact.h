@@ -12,7 +12,7 @@
 
 #include "calibration/contact_laws/pressure_law.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline contact_laws {
 
 struct SoftContact {
   double stiffness = 0.0;              ///< K [N/m]
@@ -29,4 +29,4 @@ struct SoftContact {
 /// curve has two samples or more, increasing and positive.
 SoftContact fitted_soft_contact(const ForceCurve& curve);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline contact_laws

@@ -11,7 +11,7 @@
 #include "meshes/shape/geometry.h"
 #include "meshes/volume_mesh/boundary_parts.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline contact_laws {
 
 namespace {
 
@@ -258,4 +258,4 @@ std::vector<double> forces_of(const TetrahedralBody& body, const TetrahedralPres
   return forces;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline contact_laws

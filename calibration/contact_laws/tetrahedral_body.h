@@ -12,7 +12,7 @@
 #include "meshes/shape/geometry.h"
 #include "meshes/volume_mesh/tetrahedra.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline contact_laws {
 
 struct TetrahedralBody {
   meshes::Tetrahedra mesh;  ///< lengths in metres
@@ -39,4 +39,4 @@ struct TetrahedralPress {
 std::vector<double> forces_of(const TetrahedralBody& body, const TetrahedralPress& press,
                               const std::vector<double>& indentations);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline contact_laws

@@ -14,7 +14,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline files {
 
 /// What was known before.
 struct PriorEntry {
@@ -375,4 +375,4 @@ inline FitFile as_fit(const ModuliFile& moduli) {
   return fit;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline files

@@ -8,7 +8,7 @@
 #include "meshes/tables/file_fields.h"
 #include "meshes/tables/table_rows.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline files {
 
 /// The name of a curve: in quotes whatever it says.
 struct CurveName : std::string {
@@ -65,4 +65,4 @@ constexpr auto fields_of(const SurrogateRow*) {
                     field("force_upper [N]", &Row::force_upper)};
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline files

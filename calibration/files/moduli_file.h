@@ -8,7 +8,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline files {
 
 /// A rubber [Pa].
 struct RubberEntry {
@@ -102,4 +102,4 @@ constexpr auto fields_of(const ModuliFile*) {
       &Whole::statement);
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline files

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline files {
 
 /// Whether a key of `toml` has hundreds of dotted parts. toml++ limits the nesting of brackets, but
 /// makes a table per part of a dotted key, and takes them apart by recursion: some ten thousand
@@ -19,4 +19,4 @@ inline bool nests_too_deep(std::string_view toml) {
   return false;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline files

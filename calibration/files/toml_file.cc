@@ -11,7 +11,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline files {
 
 using meshes::InvalidInput;
 
@@ -124,4 +124,4 @@ void write_toml(const std::string& text, const std::string& rejected,
   });
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline files

@@ -9,7 +9,7 @@
 
 #include <toml++/toml.h>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline files {
 
 /// A double-quoted TOML string.
 std::string toml_text(std::string_view text);
@@ -74,4 +74,4 @@ class TomlFile {
 void write_toml(const std::string& text, const std::string& rejected,
                 const std::filesystem::path& file);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline files

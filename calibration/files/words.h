@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline files {
 
 /// To so many significant digits, without trailing zeros.
 inline std::string rounded(double value, int digits = 4) {
@@ -37,4 +37,4 @@ inline std::string percent(double share) {
          " %";
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline files

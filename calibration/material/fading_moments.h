@@ -3,7 +3,7 @@
 
 #include "meshes/rubber/relaxation.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material {
 
 /// Of a step in time in which the stress after long times s goes as the parabola through its start,
 /// middle and end, a branch's stress h (meshes/rubber/relaxation.h, b = 1) goes exactly to
@@ -15,7 +15,7 @@ struct FadingMoments {
   FadingMoments(double duration, double tau) {
     const double x = duration / tau;
     const meshes::PronyRecursion fading(duration, tau);
-    keep = fading.keep;
+    keep = fading.decay;
     gain = fading.gain;
     keep_slope = x * keep;
     gain_slope = gain - keep;
@@ -38,4 +38,4 @@ struct FadingMoments {
   }
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material

@@ -6,7 +6,7 @@
 #include "lattice/model/constants.h"
 #include "meshes/rubber/rubber.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material {
 
 inline RubberEntry rubber_entry(const meshes::Rubber& rubber) {
   RubberEntry entry{rubber.youngs_modulus, rubber.shear_modulus, rubber.poissons_ratio(),
@@ -35,4 +35,4 @@ inline AchievedEntry achieved_entry(const ElasticModuli& moduli) {
           moduli.anisotropy};
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material

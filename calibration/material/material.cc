@@ -9,7 +9,7 @@
 #include "calibration/material/moduli.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material {
 namespace {
 
 using lattice::Kinematics;
@@ -240,4 +240,4 @@ Sentences warnings(const Material& material, const PressSetup& setup) {
   return found;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material

@@ -14,7 +14,7 @@
 #include "meshes/rubber/rubber.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material {
 
 /// Where constants were fitted or checked. What is empty is unknown, or knows no bound.
 struct Validity {
@@ -84,4 +84,4 @@ void write_material_toml(const Material& material, const std::filesystem::path& 
 /// cannot be read or parsed, a missing or unknown key, a wrong unit or a value out of range.
 Material read_material_toml(const std::filesystem::path& file);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material

@@ -13,7 +13,7 @@
 #include "lattice/press/setup_fields.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material {
 namespace {
 
 using lattice::Kinematics;
@@ -238,4 +238,4 @@ Material read_material_toml(const std::filesystem::path& file) {
   return MaterialReader(file).read();
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material {
 
 bool is_modulus(MaterialParameter parameter) {
   return parameter == MaterialParameter::youngs_modulus ||
@@ -137,4 +137,4 @@ Eigen::RowVector2d lambda_slopes(double e, double g) {
   return Eigen::RowVector2d(g * g, 4.0 * e * g - e * e - 6.0 * g * g) / denominator;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material

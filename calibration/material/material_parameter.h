@@ -9,7 +9,7 @@
 
 #include "meshes/rubber/rubber.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material {
 
 /// What can be identified. Of a rubber's two constants one is varied while the named
 /// other is held, so E and G go together, and G with lambda.
@@ -101,4 +101,4 @@ Eigen::Vector2d moduli_slopes(MaterialParameter parameter, double poissons_ratio
 /// lambda = G (E - 2G)/(3G - E) by E and by G, dimensionless.
 Eigen::RowVector2d lambda_slopes(double youngs_modulus, double shear_modulus);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material

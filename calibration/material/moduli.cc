@@ -1,6 +1,6 @@
 #include "calibration/material/moduli.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material {
 
 namespace {
 
@@ -74,4 +74,4 @@ Eigen::Matrix4d moduli_jacobian(const lattice::SpringConstants& constants, doubl
   return by_stiffness * stiffness_jacobian(spacing);
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material

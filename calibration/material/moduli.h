@@ -5,7 +5,7 @@
 
 #include "lattice/model/constants.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material {
 
 /// The engineering constants of a cubic material; SI.
 struct ElasticModuli {
@@ -44,4 +44,4 @@ Eigen::Matrix<double, 3, 4> stiffness_jacobian(double spacing);
 /// d(E_100, G, nu_100, K)/d(k1, k2, k3, kappa), one row per modulus in that order, at `constants`.
 Eigen::Matrix4d moduli_jacobian(const lattice::SpringConstants& constants, double spacing);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material

@@ -4,7 +4,7 @@
 
 #include "calibration/files/words.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material {
 
 std::vector<std::string> open_branches(const meshes::Relaxation& relaxation,
                                        const std::array<double, 2>& times) {
@@ -27,4 +27,4 @@ std::vector<std::string> open_branches(const meshes::Relaxation& relaxation,
   return found;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material

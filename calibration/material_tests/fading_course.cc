@@ -6,7 +6,7 @@
 
 #include "calibration/material/fading_moments.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 namespace {
 
@@ -132,4 +132,4 @@ FadingCourse::Branch FadingCourse::branch(const PartTable& lasting, double tau) 
   return result;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

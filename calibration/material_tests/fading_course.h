@@ -8,7 +8,7 @@
 
 #include "calibration/material_tests/material_test.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 /// What the stress of a test is made of: components of the second Piola-Kirchhoff stress S, on the
 /// shape at rest, where free faces bear none. Of stresses after long times; `kirchhoff` is known
@@ -74,4 +74,4 @@ class FadingCourse {
   std::size_t count_ = 0;  ///< of points
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

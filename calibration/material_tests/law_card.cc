@@ -11,7 +11,7 @@
 #include "calibration/material/material.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 using Eigen::VectorXd;
 using meshes::InvalidInput;
@@ -385,4 +385,4 @@ std::vector<std::string> warnings(const LawCard& card,
   return found;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

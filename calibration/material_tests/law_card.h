@@ -11,7 +11,7 @@
 #include "calibration/material_tests/law_fit.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 /// A test of the card: how well the law meets it.
 struct CardTest {
@@ -71,4 +71,4 @@ LawCard read_law_card(const std::filesystem::path& file);
 std::vector<std::string> warnings(const LawCard& card,
                                   const std::optional<std::array<double, 2>>& used);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

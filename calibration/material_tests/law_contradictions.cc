@@ -12,10 +12,9 @@
 
 #include "calibration/files/words.h"
 #include "calibration/material/open_branches.h"
-#include "calibration/material_tests/law_fit.h"
 #include "calibration/statistics/curve_checks.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 using Eigen::Index;
 
@@ -358,4 +357,4 @@ void add_missed_predictions(LawFit& result) {
     }
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

@@ -3,7 +3,7 @@
 
 #include "calibration/material_tests/law_result.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 /// Of the fit to `tests` itself; looks for instabilities, for branches that the tests do not reach
 /// and for what it misses.
@@ -21,4 +21,4 @@ void add_differences(std::vector<LawFit>& ranking);
 /// Predictions that miss, and loops that the law does not make, or makes too large.
 void add_missed_predictions(LawFit& result);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

@@ -16,7 +16,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/press/press_response.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -379,4 +379,4 @@ meshes::Rubber rubber_of(const LawFit& fit, double poissons_ratio) {
   return rubber;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

@@ -6,7 +6,7 @@
 
 #include "calibration/material_tests/law_result.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 /// Least squares over all tests together. Slow tests count at their rate, those without one as
 /// after long times. Throws InvalidInput for tests that break their rules, fewer points than
@@ -31,11 +31,6 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
 /// Beyond it a prediction does not support a law, by rms_relative.
 inline constexpr double supporting_error = 0.15;
 
-/// Laws so near to the least AICc are supported alike (Burnham & Anderson, Model selection and
-/// multimodel inference, 2002, ch. 2: beyond 10 there is no support): of several that are tried
-/// noise always prefers one that has a coefficient too many.
-inline constexpr double as_good_aicc = 10.0;
-
 /// Of a ranking the law to be used; null without any fit. Of those that passed their own tests the
 /// first that predicts all tests held back within 15 % (rms_relative), or, where none does, the one
 /// whose largest error, of fit or prediction, is least. Where nothing was held back and the tests
@@ -53,4 +48,4 @@ std::vector<const LawFit*> equals(const std::vector<LawFit>& ranking);
 /// `poissons_ratio` where it is unknown. Its rules may be broken: Rubber::violations tells.
 meshes::Rubber rubber_of(const LawFit& fit, double poissons_ratio);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

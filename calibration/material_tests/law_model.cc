@@ -8,7 +8,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -260,4 +260,4 @@ CurveSlopes LawModel::evaluate(const VectorXd& parameters) {
   return result;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

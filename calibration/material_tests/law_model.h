@@ -14,7 +14,7 @@
 #include "meshes/rubber/relaxation.h"
 #include "meshes/rubber/strain_energy.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 /// Branches of a relaxation that can be fitted.
 inline constexpr int most_branches = 5;
@@ -102,4 +102,4 @@ class LawModel final : public ForwardModel {
   FadingCourse course_;
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

@@ -6,7 +6,7 @@
 #include "calibration/files/words.h"
 #include "calibration/material_tests/relaxation_starts.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 using meshes::unknown;
 
@@ -171,4 +171,4 @@ std::vector<LawDataRow> law_data(const std::vector<LawFit>& ranking,
   return rows;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

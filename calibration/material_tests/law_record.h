@@ -11,7 +11,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 /// How a law meets a test; see TestMisfit.
 struct LawTestEntry {
@@ -120,4 +120,4 @@ std::vector<LawDataRow> law_data(const std::vector<LawFit>& ranking,
                                  const std::vector<MaterialTest>& tests,
                                  const std::vector<MaterialTest>& held_back);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

@@ -14,7 +14,12 @@
 #include "meshes/rubber/relaxation.h"
 #include "meshes/rubber/rubber.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
+
+/// Laws so near to the least AICc are supported alike (Burnham & Anderson, Model selection and
+/// multimodel inference, 2002, ch. 2: beyond 10 there is no support): of several that are tried
+/// noise always prefers one that has a coefficient too many.
+inline constexpr double as_good_aicc = 10.0;
 
 /// What a residual is divided by. Where all tests have a sigma, that is it.
 enum class TestWeights {
@@ -107,4 +112,4 @@ struct LawFit {
   std::string failure;
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

@@ -11,7 +11,7 @@
 #include "calibration/statistics/non_negative.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -256,4 +256,4 @@ VectorXd within_bounds(VectorXd start, const std::vector<FreeParameter>& free) {
   return start;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

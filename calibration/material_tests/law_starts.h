@@ -6,7 +6,7 @@
 #include "calibration/material_tests/law_result.h"
 #include "calibration/statistics/fit_options.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 /// Free coefficients with starts, sizes and bounds, and further starts; `scales` per test and
 /// point. For held exponents a law of Ogden is linear in mu_i >= 0, which the non-negative least
@@ -27,4 +27,4 @@ std::vector<Eigen::VectorXd> as_more_general(const LawChoice& nested,
 /// A start that a search may begin from.
 Eigen::VectorXd within_bounds(Eigen::VectorXd start, const std::vector<FreeParameter>& free);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

@@ -7,7 +7,7 @@
 
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 using meshes::to_text;
 using meshes::Violation;
@@ -230,4 +230,4 @@ std::array<double, 2> stretch_range(const std::vector<MaterialTest>& tests) {
   return range;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

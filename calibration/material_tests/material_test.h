@@ -11,7 +11,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/rubber/strain_energy.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 /// What is done to the specimen, and what its `deformation` means.
 enum class TestKind {
@@ -127,4 +127,4 @@ std::array<double, 3> principal_stretches(TestKind kind, double deformation);
 /// The smallest and largest principal stretch over all tests but volumetric ones; {1, 1} for none.
 std::array<double, 2> stretch_range(const std::vector<MaterialTest>& tests);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

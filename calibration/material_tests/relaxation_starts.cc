@@ -8,7 +8,7 @@
 #include "calibration/statistics/non_negative.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -194,4 +194,4 @@ std::optional<VectorXd> sorted_branches(const LawChoice& choice, const VectorXd&
   return sorted;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

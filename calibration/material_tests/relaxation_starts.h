@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "calibration/material_tests/law_result.h"
+#include "calibration/statistics/fit_options.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline material_tests {
 
 /// From the first to the last time that any of the tests tells of (observed_times); none where all
 /// are slow.
@@ -27,4 +28,4 @@ void add_branches(const std::vector<MaterialTest>& tests,
 std::optional<Eigen::VectorXd> sorted_branches(const LawChoice& choice,
                                                const Eigen::VectorXd& estimates);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline material_tests

@@ -9,7 +9,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline moduli {
 namespace {
 
 using Eigen::Index;
@@ -166,4 +166,4 @@ int count_mechanisms(const lattice::CubeLattice& cube) {
   return int((stiffness.array().abs() < zero).count()) - 6;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline moduli

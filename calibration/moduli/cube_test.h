@@ -3,7 +3,7 @@
 
 #include "lattice/forces/cube.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline moduli {
 
 /// What a testing machine would report for the cube; SI. Strains are volume averages.
 struct CubeModuli {
@@ -27,4 +27,4 @@ CubeModuli measure_cube(const lattice::CubeLattice& cube);
 /// eigenvalue below 1e-10 of the largest. Dense, so for cubes of a few cells.
 int count_mechanisms(const lattice::CubeLattice& cube);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline moduli

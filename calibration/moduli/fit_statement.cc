@@ -5,7 +5,7 @@
 
 #include "calibration/files/words.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline moduli {
 namespace {
 
 std::string pascals(double value) {
@@ -134,4 +134,4 @@ std::string fit_statement(const ModuliFit& fit) {
          " random starts ended here.";
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline moduli

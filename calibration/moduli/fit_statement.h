@@ -6,7 +6,7 @@
 
 #include "calibration/moduli/moduli_fit.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline moduli {
 
 /// What `fit` reached, why it cannot reach more, which constants the tests leave open and how the
 /// choice among them was made; SI.
@@ -16,4 +16,4 @@ std::string fit_statement(const ModuliFit& fit);
 /// largest component is 1.
 std::string describe_direction(const Eigen::Vector4d& direction);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline moduli

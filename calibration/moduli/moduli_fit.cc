@@ -15,7 +15,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline moduli {
 namespace {
 
 using lattice::ModelKind;
@@ -331,4 +331,4 @@ ModuliFit fit_moduli(const meshes::Rubber& rubber, const ModuliFitOptions& optio
   return fit;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline moduli

@@ -9,7 +9,7 @@
 #include "lattice/model/constants.h"
 #include "meshes/rubber/rubber.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline moduli {
 
 struct ModuliFitOptions {
   lattice::ModelKind model = lattice::ModelKind::hookean;  ///< central or hookean
@@ -63,4 +63,4 @@ struct ModuliFit {
 /// reaches the targets to 1e-9 or, with weights, a minimum.
 ModuliFit fit_moduli(const meshes::Rubber& rubber, const ModuliFitOptions& options);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline moduli

@@ -7,7 +7,7 @@
 #include "calibration/moduli/fit_statement.h"
 #include "meshes/tables/fields_json.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline moduli {
 
 Material material_from(const ModuliFit& fit) {
   Material material;
@@ -48,4 +48,4 @@ void write_calibration_json(const ModuliFit& fit, const std::filesystem::path& f
   meshes::write_json_file(content, file);
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline moduli

@@ -6,7 +6,7 @@
 #include "calibration/material/material.h"
 #include "calibration/moduli/moduli_fit.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline moduli {
 
 /// The material that `fit` describes, with provenance, validity and statement filled in. Moduli
 /// know neither spacing, depth nor contact, so these have no bounds.
@@ -18,4 +18,4 @@ Material material_from(const ModuliFit& fit);
 /// written.
 void write_calibration_json(const ModuliFit& fit, const std::filesystem::path& file);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline moduli

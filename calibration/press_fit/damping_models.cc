@@ -14,7 +14,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -196,4 +196,4 @@ CurveSlopes MovingPressModel::evaluate(const VectorXd& retardation_time) {
   return {press(setup, tau), (above - below) / (high - low)};
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -12,7 +12,7 @@
 #include "lattice/press/press_setup.h"
 #include "meshes/press/press_response.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 /// Loss factor tan d = 2 pi f tau of every harmonic deformation at the frequencies f [Hz]: stress
 /// runs ahead of strain by d. Data whose loss factor does not grow like f are not of this rubber.
@@ -123,4 +123,4 @@ class MovingPressModel final : public ForwardModel {
   double relative_step_;
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -3,7 +3,7 @@
 #include "calibration/material/fading_moments.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
 using Eigen::RowVectorXd;
@@ -92,4 +92,4 @@ void FadingForce::go_on(const Step& step, const Value& middle, const Value& end,
   now_ = end;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

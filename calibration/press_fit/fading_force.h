@@ -7,7 +7,7 @@
 
 #include "meshes/rubber/relaxation.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 /// A number of a fit's model: a fixed value [the parameter's unit], or where it stands among the
 /// parameters of the fit.
@@ -79,4 +79,4 @@ class FadingForce {
   Value now_;  ///< s
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -11,7 +11,7 @@
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -339,4 +339,4 @@ void write_fit_data(const FitRecord& record, const std::filesystem::path& file) 
   meshes::write_rows(rows, file);
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

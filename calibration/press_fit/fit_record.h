@@ -17,7 +17,7 @@
 #include "calibration/statistics/fit_result.h"
 #include "calibration/statistics/suspects.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 /// A quantity of a rig, fitted or held.
 struct RigValue {
@@ -97,4 +97,4 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file);
 /// The columns of FitDataRow, SI; empty cells where unknown. As above.
 void write_fit_data(const FitRecord& record, const std::filesystem::path& file);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

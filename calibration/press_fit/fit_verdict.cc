@@ -7,7 +7,7 @@
 #include "calibration/statistics/fit_statistics.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
 
@@ -68,6 +68,29 @@ void judge_touch(Sentences& found, const FitRecord& record) {
                     " of the largest) and " + quantity_text(measured, "N", 2) +
                     " were measured: obstacle, shape or law are others, or the load cell was "
                     "zeroed under load (rig: force_offset = \"fit\")");
+  }
+}
+
+/// Of the loading's work, and of its error: less of a loop is friction of a machine, or noise.
+constexpr double least_gain = 0.02, gain_errors = 3.0;
+
+/// A way back above the loading gives more work than was done, which no rubber does: position and
+/// force do not belong together, and nothing says that they do on the way down. The area between n
+/// rows there and back over the travel s errs by 2 s noise/sqrt(n).
+void judge_way_back(Sentences& found, const FitRecord& record) {
+  for (const Curve& curve : record.curves) {
+    const Course& course = curve.course;
+    if (!(course.loop < -least_gain)) continue;
+    const double force = *std::ranges::max_element(curve.y) - curve.y.front(),
+                 error = 2.0 * (curve.x.back() - curve.x.front()) * course.noise /
+                         std::sqrt(double(course.rows));
+    if (course.play * force < gain_errors * error) continue;
+    found.push_back(curve.name + ": the way back lies above the loading by " +
+                    percent(-course.loop) +
+                    " of its work: not the rubber, which gives back no more than it took, but " +
+                    quantity_text(course.play, "m", 2) +
+                    " of play or lag of the machine's travel. Mend it; where it is known to arise "
+                    "at the turn alone, choose the loading in a TOML file (rows = [first, last])");
   }
 }
 
@@ -160,10 +183,11 @@ std::vector<std::string> failed_tests(const FitRecord& record) {
                     "fewer parameters, or leave out depths that the model does not resolve");
   judge_misfit(found, record);
   judge_touch(found, record);
+  judge_way_back(found, record);
   judge_bounds(found, record);
   judge_identifiability(found, record);
   judge_material(found, record);
   return found;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

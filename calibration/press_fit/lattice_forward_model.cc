@@ -12,7 +12,7 @@
 #include "meshes/base/files.h"
 #include "meshes/press/press_response.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using lattice::ModelKind;
 using lattice::PressParameter;
@@ -235,4 +235,4 @@ CurveFit fit_presses(const std::vector<Curve>& curves, const std::vector<PressSe
   return fit_curves(curves, addresses, options);
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -12,7 +12,7 @@
 #include "lattice/press/press_parameters.h"
 #include "lattice/press/press_setup.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 /// Value in a setup, in the parameter's unit; lame_shear and lambda are the rubber's. NaN for
 /// coefficients of laws at large strain.
@@ -60,4 +60,4 @@ CurveFit fit_presses(const std::vector<Curve>& curves,
                      const std::vector<lattice::PressSetup>& conditions,
                      const CurveFitOptions& options, const std::function<bool()>& go_on = {});
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

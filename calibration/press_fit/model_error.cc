@@ -14,7 +14,7 @@
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/interpolation.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
 using lattice::Kinematics;
@@ -161,4 +161,4 @@ Eigen::VectorXd excess_of_other_contact(PressSetup press) {
                 forces(other, ModelKind::hookean, Kinematics::small), wanted);
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -6,7 +6,7 @@
 
 #include "lattice/press/press_setup.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 /// Covariance of the relative errors of the static lattice's forces against the continuum of its
 /// own kinematics, for all `presses` in order: a row and a column per sample of
@@ -38,4 +38,4 @@ Eigen::VectorXd excess_of_finite_strain(lattice::PressSetup press);
 /// frictionless instead of sticking.
 Eigen::VectorXd excess_of_other_contact(lattice::PressSetup press);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -8,7 +8,7 @@
 #include "calibration/press_fit/fit_record.h"
 #include "calibration/statistics/fit_statistics.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
 
@@ -161,13 +161,6 @@ std::string fading(const FitRecord& record) {
 std::string loops(const FitRecord& record) {
   std::string text;
   for (const Curve& curve : record.curves) {
-    if (curve.course.loop < -told_loop)
-      text += " " + curve.name + ": the way back lies above the loading by " +
-              percent(-curve.course.loop) +
-              " of its work: not the rubber, which gives back no more than it took, but " +
-              quantity_text(curve.course.play, "m", 2) +
-              " of play or lag of the machine's travel; the loading alone is fitted, whose touch "
-              "takes it up.";
     if (!(curve.course.loop > told_loop) || !record.material.rubber.relaxation.empty()) continue;
     text += " " + curve.name + ": loading and unloading differ by a loop of " +
             percent(curve.course.loop) +
@@ -282,4 +275,4 @@ std::string fit_statement(const FitRecord& record) {
   return text;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

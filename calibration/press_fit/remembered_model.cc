@@ -8,7 +8,7 @@
 #include "meshes/base/cannot_write.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -147,4 +147,4 @@ CurveSlopes RememberedModel::evaluate(const VectorXd& parameters) {
   return answer.slopes;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -9,7 +9,7 @@
 
 #include "calibration/statistics/forward_model.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 /// Answers of `model`, each computed once, also over several runs: a fit that was interrupted and
 /// is started again replays what it has, bit for bit, and goes on from there.
@@ -57,4 +57,4 @@ class RememberedModel final : public ForwardModel {
   std::map<Key, Answer> answers_;
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -9,7 +9,7 @@
 #include "calibration/statistics/fit_statistics.h"
 #include "meshes/tables/interpolation.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -192,4 +192,4 @@ MatrixXd covariance_of(const std::vector<Repeats>& repeats, const std::vector<Cu
   return covariance;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

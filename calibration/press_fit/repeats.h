@@ -9,7 +9,7 @@
 #include "calibration/statistics/curve.h"
 #include "calibration/statistics/fit_result.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 /// Repeats of one press, two or more; an entry per repeat where nothing else is said. SI.
 struct Repeats {
@@ -47,4 +47,4 @@ CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
 Eigen::MatrixXd covariance_of(const std::vector<Repeats>& repeats, const std::vector<Curve>& curves,
                               const CurveFit& fit, const std::vector<Eigen::VectorXd>& zero);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -9,7 +9,7 @@
 #include "calibration/press_fit/fading_force.h"
 #include "calibration/statistics/forward_model.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using RigQuantity = FitQuantity;
 
@@ -76,4 +76,4 @@ class RigModel final : public ForwardModel {
   Eigen::VectorXd indentation_;
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

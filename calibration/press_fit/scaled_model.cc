@@ -7,7 +7,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -120,4 +120,4 @@ CurveSlopes ScaledModel::evaluate(const VectorXd& parameters) {
   return result;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -11,7 +11,7 @@
 #include "calibration/statistics/forward_model.h"
 #include "meshes/rubber/rubber.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 /// F(E, G; x) = G phi(nu; x), nu = E/(2G) - 1. An elastic body's energy is linear in (E, G) at
 /// fixed nu, with whatever strain, contact and Coulomb friction that know no other stiffness, so
@@ -55,4 +55,4 @@ class ScaledModel final : public ForwardModel {
   Eigen::VectorXd held_forces_;  ///< phi at the ratio of `held_`, where it is held; else empty
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

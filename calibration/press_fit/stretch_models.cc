@@ -8,7 +8,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
 using meshes::InvalidInput;
@@ -152,4 +152,4 @@ CurveSlopes SimpleShearModel::evaluate(const Eigen::VectorXd& parameters) {
   return {law.shear * shears_, shears_ * law.chain.row(0)};
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

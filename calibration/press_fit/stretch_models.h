@@ -11,7 +11,7 @@
 #include "calibration/statistics/forward_model.h"
 #include "meshes/rubber/rubber.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline press_fit {
 
 /// Lengths over the length at rest that a bar of this law is asked for.
 inline constexpr double least_stretch = 0.01, largest_stretch = 100.0;
@@ -77,4 +77,4 @@ class SimpleShearModel final : public ForwardModel {
   LawParameters law_;
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline press_fit

@@ -7,7 +7,7 @@
 
 #include "meshes/press/press_response.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// What a file tells besides the values that are fitted; SI, NaN where unknown.
 struct Course {
@@ -41,4 +41,4 @@ struct Curve {
   Course course = {};
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

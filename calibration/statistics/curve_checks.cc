@@ -11,7 +11,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -211,4 +211,4 @@ std::optional<VectorXd> scaled_start(const std::vector<Curve>& curves,
   return scale ? std::optional(start) : std::nullopt;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

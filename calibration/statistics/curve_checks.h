@@ -10,7 +10,7 @@
 #include "calibration/statistics/curve_fit.h"
 #include "calibration/statistics/residual_structure.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// A fit to all curves but one, and what it predicts of that one.
 struct LeftOut {
@@ -104,4 +104,4 @@ std::optional<Eigen::VectorXd> scaled_start(const std::vector<Curve>& curves,
                                             const std::vector<ForwardModel*>& models,
                                             const CurveFitOptions& options);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

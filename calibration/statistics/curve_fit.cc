@@ -13,7 +13,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -223,4 +223,4 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   return fit;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

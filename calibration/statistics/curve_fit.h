@@ -8,7 +8,7 @@
 #include "calibration/statistics/fit_result.h"
 #include "calibration/statistics/forward_model.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// Least squares by Ceres with the models' own Jacobians; a model per curve, whose parameters are
 /// `options.free` in that order. Throws InvalidInput for an empty curve, lists of different length,
@@ -19,4 +19,4 @@ namespace fingertip::calibration {
 CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
                     const CurveFitOptions& options);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

@@ -13,7 +13,7 @@
 #include "calibration/statistics/fit_coordinates.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -293,4 +293,4 @@ Minimum minimise(CurveResiduals& residuals, const CurveFitOptions& options, cons
   return minimum;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

@@ -7,7 +7,7 @@
 #include "calibration/statistics/fit_options.h"
 #include "calibration/statistics/fit_result.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// Gauss–Newton steps from `start` as long as they keep what they promise, Levenberg–Marquardt by
 /// Ceres from where they do not, and Gauss–Newton again, until a step promises less than a
@@ -21,4 +21,4 @@ namespace fingertip::calibration {
 Minimum minimise(CurveResiduals& residuals, const CurveFitOptions& options,
                  const Eigen::VectorXd& start);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

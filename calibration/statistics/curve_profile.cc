@@ -10,7 +10,7 @@
 #include "calibration/statistics/fit_coordinates.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -247,4 +247,4 @@ ProfileInterval profile_interval(const std::vector<Curve>& curves,
   return {end(-1.0, down), end(1.0, up)};
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

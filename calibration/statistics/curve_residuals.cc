@@ -11,7 +11,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 using Eigen::Index;
 using meshes::to_text;
@@ -343,4 +343,4 @@ std::vector<Eigen::VectorXd> CurveResiduals::whitened_misfit(
   return by_curve(-linearisation.residuals.head(values()));
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

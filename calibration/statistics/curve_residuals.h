@@ -12,7 +12,7 @@
 #include "calibration/statistics/fit_options.h"
 #include "calibration/statistics/forward_model.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// Residuals (computed minus measured) over their standard deviations, and derivatives by the
 /// parameters themselves: all values, curve by curve, then all priors.
@@ -101,4 +101,4 @@ class CurveResiduals {
   std::list<Known> known_;  ///< latest first
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

@@ -8,7 +8,7 @@
 #include "calibration/statistics/fit_statistics.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -130,4 +130,4 @@ std::string prospect_statement(const std::vector<Prospect>& sorted,
          "): it would make the intervals narrower, " + gains + ".";
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

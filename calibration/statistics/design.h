@@ -8,7 +8,7 @@
 #include "calibration/files/fit_file.h"
 #include "calibration/statistics/fit_options.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// Values that are measured or planned, linearised.
 struct Observations {
@@ -60,4 +60,4 @@ std::vector<NextEntry> next_entries(const std::vector<Prospect>& prospects,
 std::string prospect_statement(const std::vector<Prospect>& sorted,
                                const std::vector<std::string>& labels, std::size_t decisive);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

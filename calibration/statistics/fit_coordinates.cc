@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -143,4 +143,4 @@ VectorXd FitCoordinates::upper() const {
   return upper;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

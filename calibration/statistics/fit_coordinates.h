@@ -7,7 +7,7 @@
 
 #include "calibration/statistics/fit_options.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// Moduli E and G, bond, contact and times, which are positive by nature.
 bool varies_by_logarithm(const FreeParameter& free);
@@ -49,4 +49,4 @@ class FitCoordinates {
 std::optional<std::pair<Eigen::Index, Eigen::Index>> places_of_moduli(
     const CurveFitOptions& options);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

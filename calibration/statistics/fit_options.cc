@@ -1,6 +1,6 @@
 #include "calibration/statistics/fit_options.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 std::string label(const FreeParameter& free) {
   return std::string(name(free.parameter)) + (free.of.empty() ? "" : " (" + free.of + ")");
@@ -18,4 +18,4 @@ std::vector<MaterialParameter> parameters_in(const CurveFitOptions& options) {
   return parameters;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

@@ -10,7 +10,7 @@
 
 #include "calibration/material/material_parameter.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// What is known of a parameter besides the curves, a normal distribution, in the parameter's unit.
 struct Prior {
@@ -80,4 +80,4 @@ Eigen::VectorXd start_of(const CurveFitOptions& options);
 /// Of `options.free`, in that order.
 std::vector<MaterialParameter> parameters_in(const CurveFitOptions& options);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

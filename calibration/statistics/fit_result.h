@@ -8,7 +8,7 @@
 
 #include "calibration/material/material_parameter.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// A change of all parameters together that the curves hardly see: a right singular vector.
 struct Direction {
@@ -89,4 +89,4 @@ struct CurveFit {
   std::vector<Minimum> minima;  ///< from every start, in order
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

@@ -9,7 +9,7 @@
 
 #include "calibration/files/words.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 using Eigen::Index;
 
@@ -185,4 +185,4 @@ std::string describe_changes(const Eigen::VectorXd& changes,
   return text;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

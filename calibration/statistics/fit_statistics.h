@@ -8,7 +8,7 @@
 
 #include "calibration/statistics/fit_result.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// Half width of the 95 % interval over the standard error: Student's t, and 1.96 for a normal
 /// distribution. `degrees_of_freedom` > 0.
@@ -57,4 +57,4 @@ void describe_sensitivity(CurveFit& fit, const Eigen::MatrixXd& priors,
 std::string describe_changes(const Eigen::VectorXd& changes,
                              const std::vector<std::string>& labels);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

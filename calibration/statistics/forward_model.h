@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// What a model answers at the abscissae of a curve.
 struct CurveSlopes {
@@ -21,4 +21,4 @@ class ForwardModel {
   virtual CurveSlopes evaluate(const Eigen::VectorXd& parameters) = 0;
 };
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

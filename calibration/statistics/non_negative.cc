@@ -6,7 +6,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -78,4 +78,4 @@ VectorXd non_negative_least_squares(const MatrixXd& matrix, const VectorXd& righ
   throw meshes::NotConverged("non-negative least squares: the active set does not converge");
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// x >= 0 of least |matrix x - right|, by the active-set method of Lawson & Hanson (Solving Least
 /// Squares Problems, 1974, ch. 23): finite, and exact but for round-off. The columns of `matrix`
@@ -12,4 +12,4 @@ namespace fingertip::calibration {
 Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& matrix,
                                            const Eigen::VectorXd& right);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 namespace {
 
@@ -66,4 +66,4 @@ ResidualStructure residual_structure(const Eigen::VectorXd& residuals) {
   return found;
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

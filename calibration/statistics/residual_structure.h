@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 struct ResidualStructure {
   int runs = 0;  ///< stretches of one sign; residuals of exactly zero do not count
@@ -19,4 +19,4 @@ struct ResidualStructure {
 /// by itself, so on few points per parameter the test sees less than it could.
 ResidualStructure residual_structure(const Eigen::VectorXd& residuals);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

@@ -10,7 +10,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/rubber/relaxation.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -119,7 +119,7 @@ VectorXd fading(const VectorXd& forces, const std::vector<double>& times, double
     if (k > 0) {
       const meshes::PronyRecursion step(times[std::size_t(k)] - times[std::size_t(k - 1)],
                                         constant);
-      alive = alive * step.keep + (forces(k) - forces(k - 1)) * step.gain;
+      alive = alive * step.decay + (forces(k) - forces(k - 1)) * step.gain;
     }
     change(k) = alive - forces(k);
   }
@@ -171,4 +171,4 @@ VectorXd narrowing(const MatrixXd& covariance, const MatrixXd& rows, const Matri
   return after.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

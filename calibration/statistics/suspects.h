@@ -10,7 +10,7 @@
 #include "calibration/statistics/fit_options.h"
 #include "calibration/statistics/fit_result.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline statistics {
 
 /// Something that the model of a fit leaves out, by one number that is 0 there.
 struct Suspect {
@@ -73,4 +73,4 @@ double fading_of(const Course& course, const Eigen::VectorXd& forces, const std:
 Eigen::VectorXd narrowing(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& rows,
                           const Eigen::MatrixXd& own);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline statistics

@@ -5,7 +5,7 @@
 
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline surrogate {
 namespace {
 
 using meshes::to_text;
@@ -113,4 +113,4 @@ double Surrogate::band(double indentation) const {
   return table_.band[k] + share * (table_.band[k + 1] - table_.band[k]);
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline surrogate

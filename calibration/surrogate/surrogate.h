@@ -7,7 +7,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline surrogate {
 
 /// What the calibrated model answers at one indentation.
 struct SurrogateSample {
@@ -86,4 +86,4 @@ void write_surrogate_json(const Surrogate& surrogate, const std::filesystem::pat
 /// other units, or holds a table that breaks a rule.
 Surrogate read_surrogate_json(const std::filesystem::path& file);
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline surrogate

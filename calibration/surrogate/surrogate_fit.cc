@@ -7,7 +7,7 @@
 #include "calibration/surrogate/surrogate.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline surrogate {
 namespace {
 
 using Eigen::Index;
@@ -221,4 +221,4 @@ Surrogate fit_surrogate(const std::vector<SurrogateSample>& samples,
   return Surrogate(std::move(table));
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline surrogate

@@ -9,7 +9,7 @@
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
 
-namespace fingertip::calibration {
+namespace fingertip::calibration::inline surrogate {
 namespace {
 
 using meshes::InvalidInput;
@@ -63,4 +63,4 @@ Surrogate read_surrogate_json(const std::filesystem::path& file) {
   return Surrogate(std::move(table));
 }
 
-}  // namespace fingertip::calibration
+}  // namespace fingertip::calibration::inline surrogate

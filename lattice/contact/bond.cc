@@ -1,6 +1,6 @@
 #include "lattice/contact/bond.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 using meshes::Vector3;
 
@@ -35,4 +35,4 @@ double ligament_energy(const LatticeModel& model, const State& state, const Pose
   return 0.5 * sum;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

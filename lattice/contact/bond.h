@@ -5,7 +5,7 @@
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 /// Adds every ligament's force to its particle and returns what they exert together on the rod,
 /// about the rod's endpoint. Particle force: -k (x_p - T(X_p)) - mu (v_p - v_rod(x_p)), with
@@ -18,4 +18,4 @@ Wrench add_ligament_forces(const LatticeModel& model, const State& state, const 
 /// Sum of ½ k |x_p - T(X_p)|² [J].
 double ligament_energy(const LatticeModel& model, const State& state, const Pose& rod);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

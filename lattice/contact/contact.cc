@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 using meshes::ContactMode;
 using meshes::Vector3;
@@ -134,4 +134,4 @@ Wrench PlaneContact::touch(Candidate& c, State& state, const Sweep& sweep) {
   return {given, at.cross(given)};
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

@@ -11,7 +11,7 @@
 #include "lattice/model/state.h"
 #include "meshes/press/press_protocol.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 /// Which boundary particles the plane holds, and what that costs it. One pass over the boundary
 /// per step; allocates only in the constructor.
@@ -77,4 +77,4 @@ class PlaneContact {
   int anchored_ = 0, sliding_ = 0;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

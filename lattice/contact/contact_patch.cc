@@ -10,7 +10,7 @@
 
 #include "meshes/press/press_response.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 using Eigen::Matrix2d;
 
@@ -150,4 +150,4 @@ ContactPatch contact_patch(const std::vector<LoadedPoint>& points, int sectors) 
   return contact_patch(sums, sectors);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 /// A point of the outer surface as seen along the plane's normal.
 struct LoadedPoint {
@@ -57,4 +57,4 @@ struct ContactPatch {
 ContactPatch contact_patch(const ForceMoments& moments, int sectors = 1);
 ContactPatch contact_patch(const std::vector<LoadedPoint>& points, int sectors = 1);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

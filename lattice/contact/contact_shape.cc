@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 using meshes::Vector3;
 
@@ -110,4 +110,4 @@ std::shared_ptr<const ContactShape> contact_shape(const LatticeModel& model) {
   return shape;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

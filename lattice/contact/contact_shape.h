@@ -9,7 +9,7 @@
 #include "lattice/model/model.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 /// The points of model.outer in groups of eight that hang on the same eight particles, and these,
 /// the contact particles. Immutable.
@@ -33,4 +33,4 @@ struct ContactShape {
 
 std::shared_ptr<const ContactShape> contact_shape(const LatticeModel& model);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

@@ -2,7 +2,7 @@
 
 #include "lattice/contact/particle_surfaces.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 CutSurfaces::CutSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law,
                          Team& team)
@@ -64,4 +64,4 @@ std::unique_ptr<Surfaces> make_surfaces(const LatticeModel& model, const Plane& 
   return std::make_unique<ParticleSurfaces>(model, plane, law);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

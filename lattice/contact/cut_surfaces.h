@@ -9,7 +9,7 @@
 #include "lattice/contact/tie_inertia.h"
 #include "lattice/contact/tied_bond.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 /// Tied bond to the rod (tied_bond.h) and penalty contact with the plane (penalty_contact.h).
 class CutSurfaces : public Surfaces {
@@ -70,4 +70,4 @@ class CutSurfaces : public Surfaces {
   Wrench on_tip_;                              ///< of the plane, about the world's origin
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

@@ -2,7 +2,7 @@
 
 #include "lattice/contact/bond.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 ParticleSurfaces::ParticleSurfaces(const LatticeModel& model, const Plane& plane,
                                    const ContactLaw& law)
@@ -31,4 +31,4 @@ double ParticleSurfaces::bond_energy(const State& state, const RodState& rod) co
   return model_->sector.count() * ligament_energy(*model_, state, rod.pose());
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

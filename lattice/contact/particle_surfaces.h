@@ -5,7 +5,7 @@
 #include "lattice/contact/surfaces.h"
 #include "meshes/press/press_response.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 /// Ligaments (bond.h) and boundary particles that the plane anchors (contact.h).
 class ParticleSurfaces : public Surfaces {
@@ -32,4 +32,4 @@ class ParticleSurfaces : public Surfaces {
   PlaneContact contact_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 using meshes::Vector3;
 
@@ -395,4 +395,4 @@ std::vector<std::uint8_t> PenaltyContact::held() const {
   return result;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

@@ -18,7 +18,7 @@
 #include "lattice/model/state.h"
 #include "meshes/press/press_protocol.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 /// The ties of model.outer, one-sided, with those energies that equilibrium is sought with
 /// (statics/static_contact.h), so that a press slow enough ends there:
@@ -140,4 +140,4 @@ class PenaltyContact {
   double energy_ = 0.0;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

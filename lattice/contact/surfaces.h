@@ -15,7 +15,7 @@
 #include "meshes/press/press_protocol.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 class CutSurfaces;
 
@@ -69,4 +69,4 @@ class Surfaces {
 std::unique_ptr<Surfaces> make_surfaces(const LatticeModel& model, const Plane& plane,
                                         const ContactLaw& law, Team& team);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

@@ -7,7 +7,7 @@
 #include "lattice/model/rod.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 /// What ties to the rod add to a particle's inertia (tied_bond.h).
 struct BondInertia {
@@ -37,4 +37,4 @@ struct PlaneHold {
   }
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

@@ -8,7 +8,7 @@
 
 #include "lattice/kernels/sum_in_portions.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 using Eigen::Matrix3d;
 using meshes::Vector3;
@@ -224,4 +224,4 @@ double TiedBond::energy(const State& state, const RodState& rod) const {
   });
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

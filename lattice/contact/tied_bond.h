@@ -14,7 +14,7 @@
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline contact {
 
 /// A particle of the bond that touches the plane as well.
 struct SharedLoad {
@@ -79,4 +79,4 @@ class TiedBond {
   mutable Field slip_, still_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline contact

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 using meshes::Vector3;
 
@@ -128,4 +128,4 @@ Command AdaptivePid::command(const Measurement& m) {
   return wrench;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

@@ -10,7 +10,7 @@
 #include "lattice/control/stiffness_estimator.h"
 #include "lattice/control/task.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// Pid on the way of the press, whose natural frequency is w = tuned_delay_angle / L and whose
 /// inertia is the task's times M/m, with the delay L and the mass M that a relay found on the free
@@ -77,4 +77,4 @@ class AdaptivePid final : public Controller {
   double error_ = 0.0;      ///< of position at the last command [m]
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 ControlLoop::ControlLoop(VirtualFinger& finger, Controller& controller,
                          const HardwareSettings& hardware, const PidSettings& servo, double period)
@@ -83,4 +83,4 @@ bool ControlLoop::advance(const VirtualFinger::StepObserver& after_step) {
   return wait_until(double(cycle_) * period_, after_step);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

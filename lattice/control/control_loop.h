@@ -9,7 +9,7 @@
 #include "lattice/control/pid.h"
 #include "lattice/control/virtual_finger.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// Runs the cycle of a robot's controller with a fixed period: at t_k = k T the controller gets the
 /// measurement that was taken at t_k - sensor_latency, and its command, held until the next, acts
@@ -62,4 +62,4 @@ class ControlLoop {
   Wrench commanded_, applied_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

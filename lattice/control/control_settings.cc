@@ -4,7 +4,7 @@
 
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 namespace {
 
@@ -72,4 +72,4 @@ std::vector<meshes::Violation> ForceSettings::violations() const {
   return rules.found;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

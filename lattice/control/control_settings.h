@@ -6,7 +6,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// The 6-degree-of-freedom PID at the rod's endpoint. Gains follow from the rod's inertia and a
 /// triple closed-loop pole at the natural frequency (README of control/).
@@ -52,4 +52,4 @@ struct ForceSettings {
   std::vector<meshes::Violation> violations() const;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

@@ -1,6 +1,6 @@
 #include "lattice/control/controller.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 bool finite(const Wrench& wrench) {
   return wrench.force.allFinite() && wrench.torque.allFinite();
@@ -14,4 +14,4 @@ bool finite(const Target& target) {
          moves(target.twist) && moves(target.acceleration);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

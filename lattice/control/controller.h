@@ -10,7 +10,7 @@
 
 #include "lattice/model/rod.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// What a tactile sensor on the tip would tell.
 struct ContactState {
@@ -75,4 +75,4 @@ class Controller {
   virtual ControllerReport report() const { return {}; }
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

@@ -6,7 +6,7 @@
 
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 namespace {
 
@@ -105,4 +105,4 @@ Command ForceController::command(const Measurement& m) {
   return pid_.follow(m, way_.go_on(speed, m, pid_.saturated()));
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

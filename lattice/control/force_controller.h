@@ -8,7 +8,7 @@
 #include "lattice/control/stiffness_estimator.h"
 #include "lattice/control/way_to_plane.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// The outer loop: from the measured contact force f to the velocity v toward the plane,
 ///   v = g (f_d - f') / k,   df'/dt = a (f - f') with a = 8 w_f,   g = w_f (1 - w_f/a),
@@ -80,4 +80,4 @@ class ForceController final : public Controller, public HoldsForce {
 /// Throws InvalidInput for settings that break a rule alone or with the servo.
 void check(const ForceSettings& settings, const PidSettings& servo);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

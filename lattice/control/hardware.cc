@@ -5,7 +5,7 @@
 
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 using meshes::Vector3;
 
@@ -97,4 +97,4 @@ Wrench Hardware::act(const Wrench& commanded, double duration) {
   return wrench;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

@@ -8,7 +8,7 @@
 #include "lattice/control/controller.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// One kind of sensor, per component.
 struct SensorChannel {
@@ -62,4 +62,4 @@ class Hardware {
   Wrench last_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

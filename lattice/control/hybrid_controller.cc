@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 namespace {
 constexpr double swinging = 0.010;     // of the tip, to fade by 1/e after an acceleration [s]
@@ -75,4 +75,4 @@ Command HybridController::command(const Measurement& m) {
   return pid_.follow(m, way_.go_on(speed, m, pid_.saturated()));
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

@@ -3,7 +3,7 @@
 
 #include "lattice/control/force_controller.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// Moves toward the plane on the task's way. Once the measured normal force has stayed above the
 /// touch threshold for the time of confirmation (and the tactile sensor, where there is one, feels
@@ -50,4 +50,4 @@ class HybridController final : public Controller, public HoldsForce {
   double inertial_ = 0.0;   ///< what the tip's inertia may still exert [N]
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

@@ -6,7 +6,7 @@
 
 #include "lattice/control/hardware.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 namespace {
 
@@ -99,4 +99,4 @@ Wrench Pid::follow(const Measurement& m, const Target& target, const Wrench& ext
   return wrench;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

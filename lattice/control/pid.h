@@ -8,7 +8,7 @@
 #include "lattice/control/control_settings.h"
 #include "lattice/control/controller.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// W = I (a_ref + Kp e + Ki ∫e + Kd de/dt) - share * wrench of the tip, with I the 6 x 6 inertia at
 /// the endpoint, gains that put all three closed-loop poles of the free rod at -omega
@@ -78,4 +78,4 @@ class PidController final : public Controller {
   std::function<Target(double)> target_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 using meshes::Vector3;
 
@@ -133,4 +133,4 @@ std::optional<RelayResult> relay_experiment(const ControlTask& task, double shar
   return std::nullopt;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

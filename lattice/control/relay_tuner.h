@@ -6,7 +6,7 @@
 
 #include "lattice/control/task.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// What a limit cycle tells of the loop.
 struct RelayResult {
@@ -70,4 +70,4 @@ std::optional<RelayResult> relay_experiment(const ControlTask& task, double shar
 /// exp(-omega L sigma), so that only omega L matters; 0.195 for 2.
 double tuned_delay_angle(double sensitivity);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 StiffnessEstimator::StiffnessEstimator(const EstimatorLimits& limits, double period)
     : limits_(limits), period_(period), forgetting_(std::exp(-period / limits.memory)) {
@@ -40,4 +40,4 @@ bool StiffnessEstimator::update(double moved, double sped_up, double force, doub
   return true;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

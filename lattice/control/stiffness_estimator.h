@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// Bounds within which a StiffnessEstimator believes what it finds.
 struct EstimatorLimits {
@@ -43,4 +43,4 @@ class StiffnessEstimator {
   Eigen::Matrix2d covariance_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

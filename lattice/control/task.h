@@ -7,7 +7,7 @@
 
 #include "lattice/control/controller.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// What a controller knows before its first measurement: the robot, and the task of the paper's
 /// section III, an approach along a straight way into the plane.
@@ -34,4 +34,4 @@ struct ControlTask {
 /// Makes the controller of a press. May throw ControllerFailed.
 using ControllerFactory = std::function<std::unique_ptr<Controller>(const ControlTask& task)>;
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

@@ -7,7 +7,7 @@
 #include "lattice/model/cut_model.h"
 #include "meshes/cells/cubic_grid.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 namespace {
 
@@ -94,4 +94,4 @@ void VirtualFinger::load(const Snapshot& snapshot) {
   drive_ = snapshot.drive;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

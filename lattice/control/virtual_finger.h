@@ -13,7 +13,7 @@
 #include "lattice/dynamics/time_step.h"
 #include "lattice/model/lattice_settings.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// Specimen, lattice and surroundings of one finger.
 struct FingerSetup {
@@ -96,4 +96,4 @@ class VirtualFinger {
   Snapshot start_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

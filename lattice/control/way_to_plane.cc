@@ -1,6 +1,6 @@
 #include "lattice/control/way_to_plane.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 WayToPlane::WayToPlane(const ControlTask& task)
     : start_(task.path(0.0)), toward_(-task.normal), period_(task.period) {}
@@ -36,4 +36,4 @@ void WayToPlane::take_over(const Target& target) {
   reference_ = toward_.dot(target.pose.position - start_.pose.position) + period_ * speed_;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

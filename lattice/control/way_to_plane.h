@@ -3,7 +3,7 @@
 
 #include "lattice/control/task.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline control {
 
 /// Where the endpoint should be on its way from the task's start toward the plane, and how fast it
 /// should go; along all other axes the pose stays that of the start. What is measured is told in
@@ -34,4 +34,4 @@ class WayToPlane {
   double speed_ = 0.0;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline control

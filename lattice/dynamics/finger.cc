@@ -7,7 +7,7 @@
 
 #include "lattice/forces/energy.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 using meshes::Vector3;
 
@@ -258,4 +258,4 @@ double Finger::elastic_energy() const {
          surfaces_->energy(now_.state, now_.rod);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

@@ -15,7 +15,7 @@
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 /// Where a prescribed rod is at the end of a step (it does not turn).
 struct RodMotion {
@@ -191,4 +191,4 @@ class Finger {
   std::vector<meshes::Vector3> partial_momentum_;  ///< of fixed portions of the particles
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

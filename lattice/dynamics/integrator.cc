@@ -1,6 +1,6 @@
 #include "lattice/dynamics/integrator.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 std::string_view name(Integrator integrator) {
   switch (integrator) {
@@ -17,4 +17,4 @@ bool is_adaptive(Integrator integrator) {
   return integrator == Integrator::runge_kutta || integrator == Integrator::energy_controlled;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

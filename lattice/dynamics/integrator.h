@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 /// Time integration of x' = v, v' = f/m.
 enum class Integrator {
@@ -17,4 +17,4 @@ std::string_view name(Integrator integrator);
 /// Whether it chooses every step by what the last ones did, not by stability alone.
 bool is_adaptive(Integrator integrator);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

@@ -9,7 +9,7 @@
 
 #include "lattice/forces/forces.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 using Eigen::Matrix3d;
 using meshes::Vector3;
@@ -260,4 +260,4 @@ SpectralBounds spectral_estimate(const LatticeModel& model) {
   return spectral_estimate(model, State(model), 60);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

@@ -8,7 +8,7 @@
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 /// What limits the step, over all motions of particles and rod (README: stable steps).
 struct SpectralBounds {
@@ -39,4 +39,4 @@ SpectralBounds spectral_estimate(const LatticeModel& model);
 /// one or two per cent.
 SpectralBounds spectral_estimate(const LatticeModel& model, const State& at, int steps);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

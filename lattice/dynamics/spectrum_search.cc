@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -231,4 +231,4 @@ void SpectrumSearch::finish_quantity(Memory& memory) {
   memory.quantity = 1 - memory.quantity;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

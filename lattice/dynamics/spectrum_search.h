@@ -10,7 +10,7 @@
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 /// Largest eigenvalues of M⁻¹K and M⁻¹C with the rod held, one force evaluation at a time, by
 /// Rayleigh-Ritz on few vectors: the three uppermost that the last search found (modes change
@@ -86,4 +86,4 @@ class SpectrumSearch {
   Eigen::Matrix<double, vectors, Eigen::Dynamic> partial_;  ///< sums over fixed portions of rows
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

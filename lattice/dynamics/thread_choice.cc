@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <thread>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 int machine_cores() {
   return std::max(1, int(std::thread::hardware_concurrency()));
@@ -13,4 +13,4 @@ int fastest_threads(double particles, int cores) {
   return int(std::clamp(particles / particles_per_thread, 1.0, double(std::max(cores, 1))));
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

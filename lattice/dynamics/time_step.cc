@@ -7,7 +7,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 namespace {
 
@@ -219,4 +219,4 @@ StepReport StepController::report(double step) const {
   return report;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

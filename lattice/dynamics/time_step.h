@@ -15,7 +15,7 @@
 #include "lattice/model/state.h"
 #include "meshes/press/press_response.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics {
 
 /// How the time step was chosen; `explanation` says which integrator steps and which bound rules.
 struct StepReport {
@@ -105,4 +105,4 @@ class StepController {
   std::string why_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics

@@ -5,7 +5,7 @@
 #include "lattice/model/cell_lattice.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 /// Of a lattice and a displacement; velocities and forces are the caller's to fill in.
 inline kernel::CellArrays cell_arrays(const CellLattice& cells, const VectorField& displacement) {
@@ -19,4 +19,4 @@ inline kernel::CellArrays cell_arrays(const CellLattice& cells, const VectorFiel
   return arrays;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

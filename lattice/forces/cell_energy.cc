@@ -4,7 +4,7 @@
 #include "lattice/kernels/cell_energy_kernel.h"
 #include "lattice/kernels/sum_in_portions.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 double cell_energy(const CellLattice& cells, const VectorField& displacement, Team& team,
                    int width) {
@@ -21,4 +21,4 @@ double cell_energy(const CellLattice& cells, const CellMaterial& material,
   });
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

@@ -5,7 +5,7 @@
 #include "lattice/model/cell_lattice.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 /// Of all cells (CellMaterial) [J]; infinite where the law needs J > 0 and has not got it. `width`:
 /// doubles per register (2, 4, 8), 0 for the widest the processor has; the same bits for any, and
@@ -16,4 +16,4 @@ double cell_energy(const CellLattice& cells, const VectorField& displacement, Te
 double cell_energy(const CellLattice& cells, const CellMaterial& material,
                    const VectorField& displacement, Team& team, int width = 0);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

@@ -8,7 +8,7 @@
 #include "lattice/forces/cell_arrays.h"
 #include "lattice/forces/cell_energy.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 namespace {
 
@@ -109,4 +109,4 @@ CellExtremes CellForces::add(kernel::CellSweep sweep, const VectorField& displac
   return extremes_of(material_, all);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

@@ -6,7 +6,7 @@
 #include "lattice/model/cell_lattice.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 /// How far the cells are from rest, over all of them; rest itself counts among them, and `cubic` is
 /// always at rest. With g >= the largest eigenvalue of F⁻¹F⁻ᵀ (Gershgorin):
@@ -58,4 +58,4 @@ class CellForces {
   std::vector<double> stored_;  ///< per slab, so that threads do not change its sum [J]
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

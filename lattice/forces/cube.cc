@@ -3,7 +3,7 @@
 #include "lattice/forces/stiffness.h"
 #include "lattice/model/model.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 CubeLattice cube_lattice(ModelKind kind, const SpringConstants& constants, double spacing,
                          int cells) {
@@ -19,4 +19,4 @@ CubeLattice cube_lattice(ModelKind kind, const SpringConstants& constants, doubl
   return cube;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

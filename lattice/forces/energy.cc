@@ -7,7 +7,7 @@
 #include "lattice/forces/cell_energy.h"
 #include "lattice/kernels/sum_in_portions.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 using meshes::Vector3;
 
@@ -77,4 +77,4 @@ Vector3 linear_momentum(const LatticeModel& model, const State& state) {
   return model.sector.whole(Vector3(model.grid.axes * sum));
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

@@ -5,7 +5,7 @@
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 /// Energy of springs, ½ k (elongation)², and of cells (CellMaterial) [J]; the internal forces
 /// without damping are minus its gradient.
@@ -19,4 +19,4 @@ double kinetic_energy(const LatticeModel& model, const State& state);
 /// Sum of m v [N s].
 meshes::Vector3 linear_momentum(const LatticeModel& model, const State& state);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

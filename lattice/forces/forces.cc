@@ -4,7 +4,7 @@
 
 #include "lattice/forces/energy.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 namespace {
 
@@ -138,4 +138,4 @@ void InternalForces::clear(VectorField& force) {
   });
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

@@ -8,7 +8,7 @@
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 /// Evaluates springs and cells with the vectorised kernels. Holds the scratch arrays, so that
 /// accumulate() allocates nothing. Model and team must outlive it.
@@ -59,4 +59,4 @@ class InternalForces {
   std::vector<kernel::PronyBranch> fading_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

@@ -6,7 +6,7 @@
 #include "lattice/forces/cell_energy.h"
 #include "lattice/forces/energy.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 namespace {
 
@@ -134,4 +134,4 @@ BranchEnergy branch_energy(const LatticeModel& model, const RelaxingMemory& memo
   return energy;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

@@ -8,7 +8,7 @@
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 /// At small strain the stress of a branch is b C:eps(d), d a displacement that obeys d' + d/tau =
 /// u' (meshes/rubber/relaxation.h). At large strain cells hold a second Piola-Kirchhoff stress per
@@ -49,4 +49,4 @@ struct BranchEnergy {
 BranchEnergy branch_energy(const LatticeModel& model, const RelaxingMemory& memory,
                            const State& state, double time, Team& team, State& scratch);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline forces {
 
 using Eigen::Matrix3d;
 using meshes::Vector3;
@@ -76,4 +76,4 @@ Eigen::SparseMatrix<double> small_strain_stiffness(const LatticeModel& model) {
   return matrix;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline forces

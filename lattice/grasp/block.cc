@@ -4,7 +4,7 @@
 
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline grasp {
 
 using meshes::Vector3;
 
@@ -47,4 +47,4 @@ Plane face_plane(const BlockSettings& settings, const RodState& block, double si
   return plane;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline grasp

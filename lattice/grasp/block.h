@@ -8,7 +8,7 @@
 #include "lattice/model/rod.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline grasp {
 
 /// A box of `width` between the fingers (x) and square faces of `height` (y, z). The faces that the
 /// fingers touch are treated as endless planes.
@@ -39,4 +39,4 @@ inline meshes::Vector3 face_normal(const RodState& block, double side) {
 Plane face_plane(const BlockSettings& settings, const RodState& block, double side,
                  const Pose& base);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline grasp

@@ -9,7 +9,7 @@
 
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline grasp {
 
 using meshes::Vector3;
 
@@ -331,4 +331,4 @@ GraspOutcome run_grasp(const GraspSetup& setup, const GraspObserver& observer) {
   return Grasp(setup, observer).run();
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline grasp

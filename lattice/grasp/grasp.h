@@ -10,7 +10,7 @@
 #include "lattice/grasp/grip.h"
 #include "lattice/grasp/hand.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline grasp {
 
 /// All that a grasp needs. The rods' motion is prescribed: `hand.finger.prescribed` does not
 /// matter.
@@ -64,4 +64,4 @@ using GraspObserver = std::function<bool(const GraspOutcome& so_far, double frac
 /// the observer asks.
 GraspOutcome run_grasp(const GraspSetup& setup, const GraspObserver& observer = {});
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline grasp

@@ -4,7 +4,7 @@
 #include "lattice/grasp/grasp.h"
 #include "meshes/press/fields.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline grasp {
 
 template <meshes::Fields<BlockSettings> T>
 void visit_fields(T& block, auto&& visit) {
@@ -30,4 +30,4 @@ void visit_fields(T& grip, auto&& visit) {
   visit("period", period, "s");
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline grasp

@@ -8,7 +8,7 @@
 #include "lattice/grasp/grip.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline grasp {
 
 /// One row of grasp.csv, once per period. World axes; forces are means over the last step.
 struct GraspRow {
@@ -69,4 +69,4 @@ constexpr auto fields_of(const GraspRow*) {
 /// A row per period, first line with names and units.
 void write_grasp_csv(const std::vector<GraspRow>& rows, const std::filesystem::path& file);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline grasp

@@ -5,7 +5,7 @@
 
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline grasp {
 
 namespace {
 
@@ -146,4 +146,4 @@ double GripControl::fraction_done(double time) const {
   return std::clamp(time / total, 0.0, 1.0);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline grasp

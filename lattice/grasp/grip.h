@@ -8,7 +8,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/press/press_response.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline grasp {
 
 /// What the hand is to do.
 struct GripSettings {
@@ -96,4 +96,4 @@ class GripControl {
   double lift_off_ = meshes::unknown;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline grasp

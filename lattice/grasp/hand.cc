@@ -6,7 +6,7 @@
 #include "lattice/forces/energy.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline grasp {
 
 using meshes::Vector3;
 
@@ -120,4 +120,4 @@ void Hand::advance() {
   block_.kick({weight, Vector3::Zero()}, block_.centre(), step_);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline grasp

@@ -7,7 +7,7 @@
 #include "lattice/control/virtual_finger.h"
 #include "lattice/grasp/block.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline grasp {
 
 /// Both fingers are alike; `finger.plane` and `finger.gravity` are the hand's matter. World axes: x
 /// from the first finger to the second, z up; the block's centre starts at the origin.
@@ -80,4 +80,4 @@ class Hand {
   meshes::Vector3 impulse_ = meshes::Vector3::Zero();
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline grasp

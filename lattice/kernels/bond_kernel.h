@@ -6,7 +6,7 @@
 
 #include "lattice/kernels/lanes.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// Borrowed arrays of a TiedBond and a state. Particles of the bond come in slices of `lanes`, each
 /// a row of the matrix K; those that fill up the last slice have mass 1, no ties and `point` 0.
@@ -63,4 +63,4 @@ const BondKernels& select_bond(int width);
 template <int width>
 const BondKernels& bond_at();
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

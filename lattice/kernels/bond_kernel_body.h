@@ -7,7 +7,7 @@
 #include "lattice/kernels/bond_kernel.h"
 #include "lattice/kernels/packs.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 template <typename Pack>
 struct BondBody : Packs<Pack> {
@@ -102,4 +102,4 @@ struct BondBody : Packs<Pack> {
   static constexpr BondKernels kernels{find_slips, energy, take<false>, take<true>};
 };
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

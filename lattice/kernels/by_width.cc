@@ -1,6 +1,6 @@
 #include "lattice/kernels/by_width.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 int supported_width() {
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
@@ -10,4 +10,4 @@ int supported_width() {
   return __builtin_cpu_supports("avx2") ? 4 : 2;
 }
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// Most doubles per register, of 2, 4, 8, that the running processor supports.
 int supported_width();
@@ -20,4 +20,4 @@ Kernel by_width(int width, Kernel two, Kernel four, Kernel eight) {
   }
 }
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

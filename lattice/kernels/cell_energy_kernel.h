@@ -5,7 +5,7 @@
 
 #include "lattice/kernels/cell_kernel.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// Energy of blocks[0, count) [J], forces and velocities are not looked at; infinite where the law
 /// needs J > 0 and has not got it. The same bits for any width.
@@ -18,4 +18,4 @@ CellEnergy select_cell_energy(CellLawKind law, int width);
 template <int width>
 CellEnergy cell_energy_at(CellLawKind law);
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

@@ -6,7 +6,7 @@
 #include "lattice/kernels/cell_material.h"
 #include "lattice/kernels/pack_algebra.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 template <typename Pack>
 struct Hyperelastic : PackAlgebra<Pack> {
@@ -364,4 +364,4 @@ struct Hyperelastic : PackAlgebra<Pack> {
   }
 };
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

@@ -7,7 +7,7 @@
 #include "lattice/kernels/cell_material.h"
 #include "lattice/kernels/lanes.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// What cells of a rubber that relaxes at large strain remember, as functions of C = FᵀF and of the
 /// modes seen from the rubber, k = F⁻¹ q: S = 2 dW/dC in the units of force (xx, yy, zz, yz, zx,
@@ -80,4 +80,4 @@ CellSweep select_cells(CellLawKind law, const CellTask& task, int width);
 template <int width>
 CellSweep cells_at(CellLawKind law, const CellTask& task);
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

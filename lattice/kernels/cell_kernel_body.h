@@ -12,7 +12,7 @@
 #include "lattice/kernels/cell_response.h"
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 template <typename Pack>
 struct CellBody : CellResponse<Pack> {
@@ -349,4 +349,4 @@ struct CellBody : CellResponse<Pack> {
   }
 };
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

@@ -1,7 +1,7 @@
 // The kernels of the cells, compiled once per instruction set (lattice/CMakeLists.txt).
 #include "lattice/kernels/cell_kernel_body.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 using Pack = std::experimental::native_simd<double>;
 
@@ -17,4 +17,4 @@ CellEnergy cell_energy_at(CellLawKind law) {
 }
 template CellEnergy cell_energy_at<int(Pack::size())>(CellLawKind);
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

@@ -5,7 +5,7 @@
 #include "lattice/kernels/cell_material.h"
 #include "lattice/kernels/pack_algebra.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// `size` multiplies a result: 1, or what makes a cell's force or energy of it. What belongs to the
 /// bilinear modes is not counted here.
@@ -78,4 +78,4 @@ struct Law : PackAlgebra<Number> {
   }
 };
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

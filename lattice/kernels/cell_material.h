@@ -6,7 +6,7 @@
 
 #include "meshes/rubber/strain_energy.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline kernels {
 
 /// What a cell stores per volume of its rubber, as a function of the mean F = 1 + H of dx/dX over
 /// that rubber and of its bilinear modes q (README of this folder):
@@ -76,4 +76,4 @@ struct CellBlock {
   std::uint32_t cut = whole;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline kernels

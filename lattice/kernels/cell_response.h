@@ -9,7 +9,7 @@
 #include "lattice/kernels/cell_law.h"
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// Component by component, wherever components do not mix: few packs are alive at a time then.
 /// Every function is inlined by force: handing dozens of packs on would lead through memory.
@@ -343,4 +343,4 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   }
 };
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

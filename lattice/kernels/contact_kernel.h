@@ -8,7 +8,7 @@
 #include "lattice/kernels/tie_law.h"
 #include "meshes/press/obstacle_surface.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// What ties of the plane do to one particle.
 struct ContactLoad {
@@ -128,4 +128,4 @@ const ContactKernels& select_contact(int width);
 template <int width>
 const ContactKernels& contact_at();
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

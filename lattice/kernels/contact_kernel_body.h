@@ -8,7 +8,7 @@
 #include "lattice/kernels/pack_algebra.h"
 #include "lattice/kernels/packs.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// What takes or returns packs is inlined by force, for calls would hand them on through memory:
 /// worth a quarter of the time.
@@ -375,4 +375,4 @@ struct ContactBody : Packs<Pack> {
   static constexpr ContactKernels kernels{closing, look, apply, add_up};
 };
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

@@ -1,7 +1,7 @@
 // The kernels of the contact, compiled once per instruction set (lattice/CMakeLists.txt).
 #include "lattice/kernels/contact_kernel_body.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 using Pack = std::experimental::native_simd<double>;
 
@@ -11,4 +11,4 @@ const ContactKernels& contact_at() {
 }
 template const ContactKernels& contact_at<int(Pack::size())>();
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

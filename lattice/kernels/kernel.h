@@ -7,7 +7,7 @@
 
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// Borrowed arrays of a LatticeModel and a state; sizes and units as in model.h.
 struct Arrays {
@@ -66,4 +66,4 @@ SpringForces springs_at(const Variant& variant);
 template <int width>
 MoveParticles move_at();
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

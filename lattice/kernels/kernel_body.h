@@ -13,7 +13,7 @@
 #include "lattice/kernels/packs.h"
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 template <typename Pack>
 struct Body : Packs<Pack> {
@@ -238,4 +238,4 @@ struct Body : Packs<Pack> {
   }
 };
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

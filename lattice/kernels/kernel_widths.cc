@@ -1,7 +1,7 @@
 // The kernels of springs and particles, compiled once per instruction set (lattice/CMakeLists.txt).
 #include "lattice/kernels/kernel_body.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 using Pack = std::experimental::native_simd<double>;
 
@@ -17,4 +17,4 @@ MoveParticles move_at() {
 }
 template MoveParticles move_at<int(Pack::size())>();
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

@@ -3,11 +3,11 @@
 
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// In one line of the cache: loads that straddle two cost twice.
 struct alignas(64) Lanes {
   double at[lanes];
 };
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

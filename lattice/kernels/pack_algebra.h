@@ -8,7 +8,7 @@
 
 #include "lattice/kernels/packs.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// Calls `visit` with 0, 1, 2 as constants.
 template <typename Visit>
@@ -174,4 +174,4 @@ struct PackAlgebra {
   }
 };
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

@@ -10,7 +10,7 @@
 
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 /// Of packs, or of plain numbers. Inlined by force: handing dozens of packs on would lead through
 /// memory.
@@ -103,4 +103,4 @@ struct Packs {
   }
 };
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

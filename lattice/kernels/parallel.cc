@@ -11,7 +11,7 @@
 
 #include "lattice/kernels/spin.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline kernels {
 
 namespace {
 
@@ -178,4 +178,4 @@ void Team::run(std::size_t count, std::size_t grain, Borrowed body) {
   body.call(body.self, 0, count);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline kernels

@@ -6,7 +6,7 @@
 #include "lattice/kernels/contact_kernel.h"
 #include "lattice/kernels/kernel.h"
 
-namespace fingertip::lattice::kernel {
+namespace fingertip::lattice::inline kernels::kernel {
 
 SpringForces select(const Variant& variant, int width) {
   return by_width(width, springs_at<2>, springs_at<4>, springs_at<8>)(variant);
@@ -32,4 +32,4 @@ const ContactKernels& select_contact(int width) {
   return by_width(width, contact_at<2>, contact_at<4>, contact_at<8>)();
 }
 
-}  // namespace fingertip::lattice::kernel
+}  // namespace fingertip::lattice::inline kernels::kernel

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline kernels {
 
 /// Classes of neighbours, in the order of SpringConstants: along an edge of the cell (length a), a
 /// face diagonal (a√2) or a body diagonal (a√3). The squared length is (family + 1) a².
@@ -84,4 +84,4 @@ inline constexpr std::array<CellSpring, 28> cell_springs = [] {
 /// diagonal to two, a body diagonal to one.
 inline constexpr std::array<double, 3> cell_share{0.25, 0.5, 1.0};
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline kernels

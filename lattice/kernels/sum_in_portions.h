@@ -7,7 +7,7 @@
 
 #include "lattice/kernels/parallel.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline kernels {
 
 /// body(begin, end) for `portions` pieces that cover [0, count), concurrently; their sum in order,
 /// the same bits for any number of threads. Allocates nothing.
@@ -21,4 +21,4 @@ double sum_in_portions(Team& team, std::size_t count, const Body& body) {
   return std::accumulate(part.begin(), part.end(), 0.0);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline kernels

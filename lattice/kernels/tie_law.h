@@ -6,7 +6,7 @@
 
 #include "meshes/press/obstacle_surface.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline kernels {
 
 /// Push of a tie of stiffness k at rest over k, by its depth d >= 0:
 ///
@@ -40,4 +40,4 @@ struct TiePush {
 };
 
 }  // namespace kernel
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline kernels

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 CellEdges cell_edges(const CornerMoments& moments) {
   CellEdges edges;
@@ -24,4 +24,4 @@ CellEdges cell_edges(const CornerMoments& moments) {
   return edges;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

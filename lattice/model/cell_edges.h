@@ -5,7 +5,7 @@
 
 #include "lattice/model/grid_cells.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// Values of the edges, four along x, four along y, four along z, as edge_start() numbers them.
 struct CellEdges {
@@ -22,4 +22,4 @@ struct CellEdges {
 /// c_e = w_e^(3/2) Σ_f √w_f hangs little on corners that have little mass.
 CellEdges cell_edges(const CornerMoments& moments);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

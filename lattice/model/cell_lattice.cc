@@ -9,7 +9,7 @@
 
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using meshes::CubicGrid;
 using meshes::CutCell;
@@ -218,4 +218,4 @@ CellLattice lay_out(const CubicGrid& grid, const std::vector<CutCell>& cells,
   return lattice;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -13,7 +13,7 @@
 #include "meshes/cells/cubic_grid.h"
 #include "meshes/cells/cut_cells.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// Immutable. Blocks do not overlap and begin a multiple of `lanes` apart along x: those of a plane
 /// are sorted along x, and where they begin at the same x, along y, so that a block mostly follows
@@ -51,4 +51,4 @@ Eigen::Matrix4d mode_root(const CornerMoments& moments);
 CellLattice lay_out(const meshes::CubicGrid& grid, const std::vector<meshes::CutCell>& cells,
                     const CellMaterial& material);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -5,7 +5,7 @@
 
 #include "lattice/kernels/cell_law.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 meshes::HyperelasticLaw hyperelastic_law(const CellMaterial& material) {
   return {material.energy, material.shear, material.volumetric};
@@ -107,4 +107,4 @@ CellResponse CellLaw::evaluate(const Matrix3d& H, double excess) const {
   return response;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -6,7 +6,7 @@
 #include "lattice/kernels/cell_material.h"
 #include "meshes/rubber/hyperelastic_law.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// Energy and derivatives with respect to H = dx/dX - 1; index 3 i + J of H_iJ.
 struct CellResponse {
@@ -40,4 +40,4 @@ struct CellLaw {
   bool none() const { return material.none(); }
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 std::string_view name(ModelKind kind) {
   switch (kind) {
@@ -33,4 +33,4 @@ double shear_stiffness(const SpringConstants& constants, double spacing) {
   return (constants.k2 + 4.0 / 3.0 * constants.k3) / spacing;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -5,7 +5,7 @@
 
 #include "meshes/rubber/rubber.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// What a cell of the lattice is (README of model/: physics of each).
 enum class ModelKind {
@@ -41,10 +41,12 @@ SpringConstants published_constants(const meshes::Rubber& rubber, double spacing
 
 /// Constants of the hookean model: kappa = lambda - G, k1 = aG + 4/3 k3, k2 = aG - 4/3 k3, exact
 /// and isotropic for every -1 < nu < 1/2 and 0 <= k3 < 3aG/4 [N/m] (derivation:
-/// calibration/README.md). `spacing` a > 0 [m]; the rubber must be valid, which is not checked.
+/// calibration/material/README.md). `spacing` a > 0 [m]; the rubber must be valid, which is not
+/// checked.
 SpringConstants hookean_constants(const meshes::Rubber& rubber, double spacing, double k3 = 0.0);
 
-/// C44 of the infinite lattice, (k2 + 4/3 k3)/a [Pa] (calibration/README.md). `spacing` a > 0 [m].
+/// C44 of the infinite lattice, (k2 + 4/3 k3)/a [Pa] (calibration/material/README.md). `spacing` a
+/// > 0 [m].
 double shear_stiffness(const SpringConstants& constants, double spacing);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

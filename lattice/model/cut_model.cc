@@ -7,7 +7,7 @@
 
 #include "lattice/model/cut_tip.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using Eigen::Matrix3d;
 using meshes::CutCell;
@@ -156,4 +156,4 @@ LatticeModel build_tip(const meshes::Geometry& geometry, const meshes::Rubber& r
              : build_cut_model(geometry, rubber, settings, sectors);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

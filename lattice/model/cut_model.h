@@ -3,7 +3,7 @@
 
 #include "lattice/model/model.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// central, hookean or network on cells cut by the tip's true surfaces (cut_tip.h), laid out
 /// for the kernels. Masses are moments of the shape functions over the rubber, but no particle is
@@ -19,4 +19,4 @@ LatticeModel build_cut_model(const meshes::Geometry& geometry, const meshes::Rub
 LatticeModel build_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
                        const LatticeSettings& settings, int sectors = 1);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

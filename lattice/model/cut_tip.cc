@@ -8,7 +8,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using meshes::CubicGrid;
 using meshes::CutCell;
@@ -133,4 +133,4 @@ double lowest_contact(const Geometry& geometry) {
   return std::max(geometry.lowest(), geometry.pole() - geometry.tip_radius - geometry.thickness());
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

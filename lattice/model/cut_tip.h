@@ -13,7 +13,7 @@
 #include "meshes/rubber/rubber.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// Cells with less rubber than this are left out.
 inline constexpr double smallest_fraction = 1e-6;
@@ -62,4 +62,4 @@ std::vector<meshes::Violation> sector_violations(const meshes::Geometry& geometr
 /// is thick, since no press goes deeper than that.
 double lowest_contact(const meshes::Geometry& geometry);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

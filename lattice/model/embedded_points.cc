@@ -6,7 +6,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using meshes::Vector3;
 
@@ -77,4 +77,4 @@ EmbeddedPoint tie_to_particle(std::uint32_t particle, const Vector3& rest, const
   return embedded;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -7,7 +7,7 @@
 #include "lattice/model/grid_cells.h"
 #include "meshes/cells/surface_points.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// A point that moves with particles: x = rest + Σ weight_c u(corner_c), Σ weight_c = 1.
 struct EmbeddedPoint {
@@ -29,4 +29,4 @@ EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, dou
 EmbeddedPoint tie_to_particle(std::uint32_t particle, const meshes::Vector3& rest,
                               const meshes::Vector3& normal, double area, double stiffness);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

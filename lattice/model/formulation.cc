@@ -6,7 +6,7 @@
 #include "meshes/base/files.h"
 #include "meshes/rubber/hyperelastic_law.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using meshes::Rubber;
 using meshes::Violation;
@@ -115,4 +115,4 @@ std::vector<Violation> material_violations(const Rubber& rubber, const LatticeSe
   return found;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -9,7 +9,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/rubber/rubber.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// Share s of the shear energy that is carried by the fibres along the cells' edges; the rest sees
 /// the cell's mean gradient. With s = 1/3 the bilinear modes of a cell cost what they cost in the
@@ -57,4 +57,4 @@ Formulation spring_formulation(ModelKind kind, Kinematics kinematics,
 std::vector<meshes::Violation> material_violations(const meshes::Rubber& rubber,
                                                    const LatticeSettings& settings);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

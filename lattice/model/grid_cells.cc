@@ -7,7 +7,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using meshes::CubicGrid;
 using meshes::CutCell;
@@ -174,4 +174,4 @@ std::array<std::vector<double>, directions> spring_shares(const GridCells& cells
   return shares;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

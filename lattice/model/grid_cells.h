@@ -11,7 +11,7 @@
 #include "meshes/cells/cubic_grid.h"
 #include "meshes/cells/cut_cells.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// Per corner c of a cell (bits 0, 1, 2 of c step along the grid's x, y, z) the integral over the
 /// unit cell of chi N_c, chi = 1 in the rubber and N_c the corner's trilinear shape function. All
@@ -78,4 +78,4 @@ std::array<std::vector<double>, directions> spring_shares(const GridCells& cells
 std::vector<meshes::CutCell> largest_piece(const meshes::CubicGrid& grid,
                                            const std::vector<meshes::CutCell>& cells);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -7,7 +7,7 @@
 
 #include "meshes/base/files.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 namespace {
 
 using meshes::Violation;
@@ -120,4 +120,4 @@ std::vector<Violation> LatticeSettings::violations(const meshes::Geometry& geome
   return found;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

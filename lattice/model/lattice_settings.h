@@ -9,7 +9,7 @@
 #include "meshes/rubber/rubber.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// The lattice of the tip.
 struct LatticeSettings {
@@ -35,4 +35,4 @@ double coarsest_spacing(const meshes::Geometry& geometry, ModelKind model);
 /// Empty if `axes` is a rotation.
 std::vector<meshes::Violation> rotation_violations(const Eigen::Matrix3d& axes);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -8,7 +8,7 @@
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using meshes::CubicGrid;
 using meshes::Geometry;
@@ -320,4 +320,4 @@ LatticeModel build_block(ModelKind kind, Kinematics kinematics, const SpringCons
                          density * std::pow(spacing, 3) * cells[0] * cells[1] * cells[2]);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

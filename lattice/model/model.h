@@ -20,7 +20,7 @@
 #include "meshes/rubber/rubber.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// What hangs a published particle on the rod: an isotropic spring with zero force at rest between
 /// the particle and the point of the rigid rod (extended beyond its surface) that coincides with it
@@ -120,4 +120,4 @@ LatticeModel build_block(ModelKind kind, Kinematics kinematics, const SpringCons
                          double spacing, const std::array<int, 3>& cells, double density,
                          double retardation_time);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

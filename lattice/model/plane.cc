@@ -4,7 +4,7 @@
 
 #include "lattice/model/rod.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using meshes::Vector3;
 
@@ -41,4 +41,4 @@ Plane Plane::after(double duration) const {
   return moved;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -6,7 +6,7 @@
 #include "meshes/press/press_protocol.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// The plane in rod axes and how it moves when the rod is taken to stand still. The normal points
 /// from the plane toward the rod: n = (-sin tilt, 0, -cos tilt); t1 is the rod's x axis projected
@@ -77,4 +77,4 @@ inline meshes::Vector3 first_tangent(const meshes::Vector3& normal) {
   return (meshes::Vector3::UnitX() - normal * normal.x()).normalized();
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

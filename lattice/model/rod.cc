@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using Eigen::Matrix3d;
 using meshes::Vector3;
@@ -136,4 +136,4 @@ void RodState::set_state(const Vector3& centre, const Eigen::Quaterniond& orient
   spin_ = angular_momentum;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -6,7 +6,7 @@
 
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -108,4 +108,4 @@ Eigen::Quaterniond rotation_by(const meshes::Vector3& turn);
 /// Its inverse: axis times angle [rad] of a unit quaternion, no longer than pi.
 meshes::Vector3 rotation_vector(const Eigen::Quaterniond& rotation);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

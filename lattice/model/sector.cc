@@ -1,6 +1,6 @@
 #include "lattice/model/sector.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 using meshes::Vector3;
 
@@ -87,4 +87,4 @@ Wrench Sector::even(const Wrench& wrench) const {
           world_.tail<3>().cwiseProduct(wrench.torque)};
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -10,7 +10,7 @@
 #include "lattice/model/rod.h"
 #include "meshes/cells/cubic_grid.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// Where tip, grid, obstacle and motion are their own mirror images in the planes y = 0 and perhaps
 /// x = 0 (world axes), the half y >= 0 or the quarter x, y >= 0 moves as the whole does. Mirror
@@ -51,4 +51,4 @@ class Sector {
   Vector6 world_ = Vector6::Ones(), grid_ = Vector6::Ones();  ///< 1: its own mirror image, or 0
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

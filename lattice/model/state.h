@@ -6,7 +6,7 @@
 
 #include "lattice/model/model.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// Three components of a vector per grid point, structure of arrays.
 struct VectorField {
@@ -54,4 +54,4 @@ inline meshes::Vector3 position(const LatticeModel& model, const State& state, s
   return model.rest_position(point) + model.grid.axes * state.displacement.at(point);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

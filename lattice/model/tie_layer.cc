@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 TieLaw layer_law(const meshes::StrainEnergy& energy, double spacing) {
   const double stretch = 1.0 - layer_depth, across = 1.0 / std::sqrt(stretch);
@@ -19,4 +19,4 @@ TieLaw layer_law(const meshes::StrainEnergy& energy, double spacing) {
   return {std::clamp(growth, 0.0, largest) / (thickness * thickness), layer_depth * thickness};
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -4,7 +4,7 @@
 #include "lattice/kernels/tie_law.h"
 #include "meshes/rubber/strain_energy.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline model {
 
 /// Stiffness of the ties to rod and plane per area over C44/a. Softer ties are felt, stiffer ones
 /// lock the lattice (lattice/MEASUREMENTS.md).
@@ -27,4 +27,4 @@ inline constexpr double stiffest_tie = 16.0;
 /// tie has a bound itself. `spacing` a > 0 [m].
 TieLaw layer_law(const meshes::StrainEnergy& energy, double spacing);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline model

@@ -5,7 +5,7 @@
 #include "lattice/model/cut_tip.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using meshes::Vector3;
 
@@ -93,4 +93,4 @@ FingerPicture take_picture(const Finger& finger, const BoundaryView& view, doubl
   return picture;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -9,7 +9,7 @@
 #include "lattice/model/model.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// Boundary particles and the axis springs between them. On cut cells a boundary particle is drawn
 /// where the nearest point of the true surface that hangs on it is; far corners of slivers on which
@@ -60,4 +60,4 @@ FingerPicture bare_picture(const Finger& finger, double indentation);
 /// The same with what `view` shows of the tip.
 FingerPicture take_picture(const Finger& finger, const BoundaryView& view, double indentation);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

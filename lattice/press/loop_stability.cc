@@ -9,7 +9,7 @@
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -125,4 +125,4 @@ LoopMotion loop_motion(const Matrix6& hand, const HeldVibrations& rubber, double
                  servo.period);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -4,7 +4,7 @@
 #include "lattice/control/control_settings.h"
 #include "lattice/statics/held_vibrations.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// The largest ratio, over all motions as one rigid body, of the rubber's kinetic energy to the
 /// hand's; both 6 x 6 about the same point, whichever it is. That of their masses is one motion's.
@@ -33,4 +33,4 @@ LoopMotion loop_motion(const Matrix6& hand, const HeldVibrations& rubber, double
 /// Less than either, for the filter of the derivative delays, too.
 double harmless_ratio(const PidSettings& servo, double latency, double retardation_time);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

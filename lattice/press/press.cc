@@ -16,7 +16,7 @@
 #include "lattice/press/press_task.h"
 #include "meshes/press/press_motion.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 namespace {
 
@@ -315,4 +315,4 @@ PressOutcome run_press(const PressSetup& setup, const PressObserver& observer,
   return press.run();
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

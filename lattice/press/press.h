@@ -6,7 +6,7 @@
 #include "lattice/press/press_outcome.h"
 #include "lattice/press/press_setup.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// Called about ten times a second of wall time and at every sample. Returning false ends the run
 /// with Interrupted after the observer has seen the outcome so far.
@@ -19,4 +19,4 @@ using PressObserver = std::function<bool(const PressOutcome& so_far, double frac
 PressOutcome run_press(const PressSetup& setup, const PressObserver& observer = {},
                        const PressFilm& film = {});
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -10,7 +10,7 @@
 #include "meshes/press/press_motion.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 namespace {
 
@@ -236,4 +236,4 @@ ScalingChoice choose_scaling(const PressSetup& setup) {
   return {true, *setup.time_step, scaling_deviations(setup, *setup.time_step)};
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

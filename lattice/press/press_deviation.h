@@ -5,7 +5,7 @@
 
 #include "lattice/press/press_setup.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// At one output depth, relative to the force there.
 struct ForceDeviation {
@@ -90,4 +90,4 @@ struct ActuatorLimits {
 };
 ActuatorLimits suitable_limits(const PressSetup& setup);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -15,7 +15,7 @@
 #include "lattice/press/trace.h"
 #include "meshes/press/press_response.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// What the lattice consists of, for reports and pictures.
 struct LatticeCensus {
@@ -65,4 +65,4 @@ struct PressFilm {
   std::function<void(const BoundaryView& view, const FingerPicture& picture)> show;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

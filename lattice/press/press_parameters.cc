@@ -10,7 +10,7 @@
 #include "lattice/statics/cut_lattice.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 namespace {
 
@@ -175,4 +175,4 @@ LatticeBody body_slope(const LatticeBody& body, const PressSetup& setup, PressPa
   return slope;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

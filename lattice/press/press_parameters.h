@@ -7,7 +7,7 @@
 #include "lattice/press/press_setup.h"
 #include "lattice/statics/lattice_body.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// Every energy of a cut tip is linear in them, its ties included, which are proportional to
 /// C44 = (k2 + 4/3 k3)/a, in the network to G, and to their factors.
@@ -44,4 +44,4 @@ void set_value(PressParameter parameter, double value, PressSetup& setup);
 /// among press_parameters.
 LatticeBody body_slope(const LatticeBody& body, const PressSetup& setup, PressParameter parameter);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using meshes::Vector3;
 
@@ -76,4 +76,4 @@ void PressPictures::finish(double indentation) {
   }
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -10,7 +10,7 @@
 #include "lattice/press/press_shapes.h"
 #include "lattice/press/whole_tip.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// Fills the outcome's PressShapes, and shows the film's pictures: of the whole tip.
 class PressPictures {
@@ -44,4 +44,4 @@ class PressPictures {
   double last_shown_ = 0.0;  ///< [s]
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using meshes::Vector3;
 
@@ -170,4 +170,4 @@ void PressRecorder::update(double wall_time) {
                                   : 0.0;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -11,7 +11,7 @@
 #include "meshes/press/press_motion.h"
 #include "meshes/press/press_protocol.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// The finger at the start of a step, as far as the response needs it.
 struct PressInstant {
@@ -66,4 +66,4 @@ class PressRecorder {
   double plane_since_ = 0.0;    ///< time of the last trace row [s]
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -12,7 +12,7 @@
 #include "meshes/base/files.h"
 #include "meshes/press/press_motion.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using meshes::Violation;
 
@@ -312,4 +312,4 @@ std::vector<Violation> PressSetup::violations() const {
   return found;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

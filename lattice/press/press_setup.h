@@ -16,7 +16,7 @@
 #include "meshes/rubber/rubber.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// All that one press needs.
 struct PressSetup {
@@ -68,4 +68,4 @@ struct SwayingHand {
 /// damping are those of the rubber at small strain, on a coarse lattice.
 std::optional<SwayingHand> swaying_hand(const PressSetup& setup);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

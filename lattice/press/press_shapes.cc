@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 std::string_view name(Moment moment) {
   switch (moment) {
@@ -46,4 +46,4 @@ void ShapeRecorder::finish(FingerPicture picture) {
   shapes_->snapshots.push_back({std::move(picture), next_});
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -9,7 +9,7 @@
 #include "lattice/press/boundary_view.h"
 #include "meshes/press/press_protocol.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// When a picture of a press is kept.
 enum class Moment {
@@ -53,4 +53,4 @@ class ShapeRecorder {
   PressShapes* shapes_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

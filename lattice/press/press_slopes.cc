@@ -3,7 +3,7 @@
 #include "meshes/base/files.h"
 #include "meshes/press/no_equilibrium.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -107,4 +107,4 @@ Eigen::Matrix3Xd SlopeSystem::force(const VectorXd& displacement, const StateSlo
   return body_->sectors * result;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -10,7 +10,7 @@
 #include "lattice/statics/equilibrium.h"
 #include "lattice/statics/static_contact.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// Of a press's forces on the rod, whole tip: rows are samples, columns parameters. N per unit of
 /// the parameter.
@@ -69,4 +69,4 @@ class SlopeSystem {
   std::vector<std::unique_ptr<const Part>> parts_;  ///< per parameter
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -4,7 +4,7 @@
 #include "lattice/statics/cut_lattice.h"
 #include "meshes/cells/cubic_grid.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using meshes::Vector3;
 
@@ -81,4 +81,4 @@ ControlTask control_task(const PressSetup& setup, const PressWay& way, const Rod
   return task;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -6,7 +6,7 @@
 #include "lattice/press/press_setup.h"
 #include "meshes/press/press_motion.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// The rod's straight way toward the plane (and along it, if it moves laterally). The tip hangs
 /// straight in its frame, the plane may be tilted.
@@ -49,4 +49,4 @@ double moving_particles(const PressSetup& setup);
 /// What the controller is asked to do: to follow the way of the press.
 ControlTask control_task(const PressSetup& setup, const PressWay& way, const RodBody& rod);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -4,7 +4,7 @@
 #include "lattice/press/press_setup.h"
 #include "meshes/press/fields.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using meshes::Fields;
 
@@ -136,4 +136,4 @@ constexpr auto values(Integrator) {
                     Integrator::energy_controlled};
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

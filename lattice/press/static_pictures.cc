@@ -1,6 +1,6 @@
 #include "lattice/press/static_pictures.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using meshes::Vector3;
 
@@ -57,4 +57,4 @@ void StaticPictures::finish(const StaticContact& contact, const Eigen::VectorXd&
   recorder_.finish(take(contact, displacement, on_rod));
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -12,7 +12,7 @@
 #include "lattice/statics/lattice_body.h"
 #include "lattice/statics/static_contact.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// Fills PressShapes as a press in motion does: world axes in which the plane stands still and the
 /// rod, at its starting place at first touch, comes nearer. The part computed is mirrored to the
@@ -42,4 +42,4 @@ class StaticPictures {
   ShapeRecorder recorder_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

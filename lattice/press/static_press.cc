@@ -19,7 +19,7 @@
 #include "meshes/base/files.h"
 #include "meshes/press/no_equilibrium.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using Eigen::VectorXd;
 using meshes::ContactMode;
@@ -327,4 +327,4 @@ StaticOutcomeWithSlopes run_static_press_with_slopes(const PressSetup& setup,
   return result;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

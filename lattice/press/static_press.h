@@ -10,7 +10,7 @@
 #include "lattice/statics/lattice_body.h"
 #include "meshes/press/press_response.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// The state of an outer point at the end of a press.
 struct StaticContactPoint {
@@ -75,4 +75,4 @@ StaticOutcomeWithSlopes run_static_press_with_slopes(const PressSetup& setup,
                                                      const std::vector<PressParameter>& parameters,
                                                      const StaticObserver& observer = {});
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -7,7 +7,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// One row of trace.csv, taken once per controller period. SI; vectors in the rod's starting axes.
 struct TraceRow {
@@ -57,4 +57,4 @@ constexpr auto fields_of(const TraceRow*) {
 /// One row per controller period, first line with names and units.
 void write_trace_csv(const std::vector<TraceRow>& trace, const std::filesystem::path& file);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

@@ -2,7 +2,7 @@
 
 #include "lattice/model/cut_model.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 using meshes::Vector3;
 
@@ -47,4 +47,4 @@ std::vector<std::uint8_t> WholeTip::boundary(const std::vector<std::uint8_t>& of
   return result;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

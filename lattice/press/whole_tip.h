@@ -8,7 +8,7 @@
 #include "lattice/model/state.h"
 #include "lattice/press/press_setup.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline press {
 
 /// The moving lattice of the whole tip, its particles where mirror images of a part's are.
 /// Particles of the part are numbered as the caller lists them.
@@ -38,4 +38,4 @@ class WholeTip {
   State state_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline press

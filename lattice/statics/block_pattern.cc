@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 BlockPattern::BlockPattern(std::size_t particles,
                            const std::vector<std::vector<std::uint32_t>>& groups) {
@@ -44,4 +44,4 @@ std::uint32_t BlockPattern::rank(std::uint32_t p, std::uint32_t q) const {
   return std::uint32_t(std::ranges::lower_bound(rows, p) - rows.begin());
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

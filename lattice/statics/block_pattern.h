@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 /// The pattern of a symmetric sparse matrix of 3 x 3 blocks, one row and column of blocks per
 /// particle, of which the lower triangle is stored column by column. Diagonal blocks always exist.
@@ -49,4 +49,4 @@ class BlockPattern {
   std::vector<int> start_;           ///< per scalar column: its first entry
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

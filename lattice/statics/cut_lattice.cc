@@ -9,7 +9,7 @@
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 using meshes::CubicGrid;
 using meshes::CutCell;
@@ -180,4 +180,4 @@ int way_symmetry(const Geometry& geometry, const LatticeSettings& settings,
   return straight && protocol.obstacle.mirrored() ? sectors : std::min(sectors, 2);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

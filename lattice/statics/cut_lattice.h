@@ -12,7 +12,7 @@
 #include "meshes/rubber/rubber.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 /// Tie of a published particle to the plane over E a.
 inline constexpr double particle_tie = 20.0;
@@ -47,4 +47,4 @@ int way_symmetry(const meshes::Geometry& geometry, const LatticeSettings& settin
 int largest_symmetry(const meshes::Geometry& geometry, const LatticeSettings& settings,
                      const meshes::PressProtocol& protocol);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

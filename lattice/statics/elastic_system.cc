@@ -8,7 +8,7 @@
 #include "lattice/statics/block_pattern.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 using Eigen::Matrix3d;
 using Eigen::VectorXd;
@@ -304,4 +304,4 @@ const LatticeBody& ElasticSystem::body() const {
   return implementation_->body;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

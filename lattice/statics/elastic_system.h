@@ -7,7 +7,7 @@
 
 #include "lattice/statics/lattice_body.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 /// Symmetric; lower triangle, column by column.
 using Tangent = Eigen::SparseMatrix<double>;
@@ -57,4 +57,4 @@ meshes::Vector3 position(const EmbeddedPoint& point, const Eigen::VectorXd& disp
 /// Mean displacement gradient of a cell.
 Eigen::Matrix3d cell_gradient(const MeanCell& cell, const Eigen::VectorXd& displacement);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

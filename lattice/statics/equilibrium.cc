@@ -7,7 +7,7 @@
 
 #include "lattice/statics/factor_memory.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -259,4 +259,4 @@ bool EquilibriumSolver::solve(const StaticContact& contact, VectorXd& displaceme
   return false;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

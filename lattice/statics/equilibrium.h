@@ -7,7 +7,7 @@
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/static_contact.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 /// Force that may be left unbalanced, over the sum of the contact forces' magnitudes.
 inline constexpr double force_tolerance = 1e-9;
@@ -52,4 +52,4 @@ class EquilibriumSolver {
   std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

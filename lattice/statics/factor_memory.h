@@ -7,7 +7,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 /// Throws NotConverged when CHOLMOD's last call found too little memory for a matrix of `unknowns`
 /// rows: shifts and smaller steps would not help.
@@ -17,4 +17,4 @@ inline void require_memory(const cholmod_common& cholmod, long unknowns) {
                              std::to_string(unknowns) + " unknowns; take a coarser lattice");
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

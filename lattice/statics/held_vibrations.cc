@@ -7,7 +7,7 @@
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/factor_memory.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -74,4 +74,4 @@ HeldVibrations held_vibrations(const LatticeBody& body, const meshes::Vector3& p
   return found;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

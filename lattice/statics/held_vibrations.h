@@ -6,7 +6,7 @@
 #include "lattice/model/rod.h"
 #include "lattice/statics/lattice_body.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 /// About rest, the hand's motion being six accelerations a of a point and about it: the rubber's
 /// displacement is the hand's own motion plus Σ shape_i q_i with
@@ -28,4 +28,4 @@ Matrix6 rubber_inertia(const LatticeBody& body, const meshes::Vector3& point);
 /// else std::logic_error. Throws NotConverged where rest is not stable or memory does not suffice.
 HeldVibrations held_vibrations(const LatticeBody& body, const meshes::Vector3& point);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

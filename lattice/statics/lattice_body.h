@@ -11,7 +11,7 @@
 #include "lattice/model/tie_layer.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 /// Two particles and the constant k [N/m] between them.
 struct Spring {
@@ -54,4 +54,4 @@ struct LatticeBody {
   Eigen::Index unknowns() const { return 3 * Eigen::Index(rest.size()); }
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::string description(const ModeMotion& motion) {
   }
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

@@ -6,7 +6,7 @@
 
 #include "lattice/statics/lattice_body.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 /// Of a shape u about the tip's axis z, all dimensionless. Masses m_i at X_i, M = Σ m_i,
 /// J = Σ m_i (x² + y²), Σ m_i |u_i|² = 1.
@@ -32,4 +32,4 @@ ModeMotion motion_of(const LatticeBody& body, const Eigen::VectorXd& shape, doub
 /// "4 or more waves around the axis".
 std::string description(const ModeMotion& motion);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 using Eigen::Matrix3d;
 using Eigen::VectorXd;
@@ -192,4 +192,4 @@ std::vector<LoadedPoint> StaticContact::loaded_points(const VectorXd& displaceme
   return points;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

@@ -12,7 +12,7 @@
 #include "meshes/press/press_protocol.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 /// What the plane exerts on the part computed.
 struct PlaneReaction {
@@ -116,4 +116,4 @@ class StaticContact {
   std::vector<meshes::Vector3> anchor_normal_;  ///< of the obstacle there
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

@@ -12,7 +12,7 @@
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/factor_memory.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -179,4 +179,4 @@ std::vector<VibrationMode> vibration_modes(const LatticeBody& body, int count,
   return modes;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

@@ -7,7 +7,7 @@
 
 #include "lattice/statics/lattice_body.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline statics {
 
 /// u(t) = shape cos(2 pi frequency t), undamped and free of contact.
 struct VibrationMode {
@@ -30,4 +30,4 @@ struct VibrationMode {
 std::vector<VibrationMode> vibration_modes(const LatticeBody& body, int count,
                                            const std::function<bool()>& stop_requested = {});
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline statics

@@ -11,14 +11,14 @@
 #include "studies/bench/kernels.h"
 #include "studies/bench/presses.h"
 #include "studies/bench/ratios.h"
-#include "studies/fits/jobs/moduli_job.h"
+#include "studies/fits/runs/moduli_job.h"
 #include "studies/jobs/json_file.h"
 #include "studies/jobs/provenance.h"
 #include "studies/presses/pace.h"
 #include "studies/presses/press_job.h"
 #include "studies/presses/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 namespace {
 
@@ -187,4 +187,4 @@ ordered_json run_bench(Session& session, const LoadedConfig& loaded, const Bench
   return bench;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

@@ -2,7 +2,7 @@
 
 #include "studies/bench/bench.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 namespace {
 
@@ -45,4 +45,4 @@ std::string bench_text(const ordered_json& bench) {
   return text;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

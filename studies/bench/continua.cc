@@ -8,7 +8,7 @@
 #include "studies/presses/press_setup.h"
 #include "studies/presses/reference_job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::string continuum_name(const ContinuumMesh& continuum) {
   return fmt::format("degree{}_{:.3g}", continuum.degree, continuum.refinement);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

@@ -11,7 +11,7 @@
 #include "studies/config/loader.h"
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 /// `count` even indentations [m] from plan.error_from to the plan's depth, and one before.
 std::vector<double> error_depths(const BenchPlan& plan, int count);
@@ -35,4 +35,4 @@ nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
 /// "degree2_0.5"
 std::string continuum_name(const ContinuumMesh& continuum);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

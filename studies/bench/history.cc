@@ -5,7 +5,7 @@
 
 #include "studies/jobs/cache.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
@@ -26,4 +26,4 @@ void append_history(const ordered_json& bench, const fs::path& file) {
   if (!out) throw std::runtime_error("cannot write " + file.string());
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 /// The file in `folder`, or in the cache when that is empty.
 std::filesystem::path history_file(const std::filesystem::path& folder);
@@ -14,4 +14,4 @@ std::filesystem::path history_file(const std::filesystem::path& folder);
 /// std::runtime_error when it cannot be written.
 void append_history(const nlohmann::ordered_json& bench, const std::filesystem::path& file);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

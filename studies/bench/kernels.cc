@@ -9,14 +9,14 @@
 
 #include "meshes/press/press_response.h"
 #include "studies/bench/lammps.h"
-#include "studies/exchange/lammps_program.h"
+#include "studies/exchange/lammps/lammps_program.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
 #include "studies/jobs/interrupt.h"
 #include "studies/jobs/json_file.h"
 #include "studies/jobs/provenance.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 namespace {
 
@@ -207,4 +207,4 @@ KernelRounds measure_kernels(const BenchPlan& plan, const fs::path& folder,
   return result;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

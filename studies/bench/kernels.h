@@ -11,7 +11,7 @@
 #include "studies/bench/plan.h"
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 /// One benchmark of fingertip-kernels in one round, by NAME/isa:ISA/precision:P/threads:N/size:N.
 struct KernelSample {
@@ -48,4 +48,4 @@ KernelRounds measure_kernels(const BenchPlan& plan, const std::filesystem::path&
 
 double median(std::vector<double> values);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "studies/exchange/lammps_files.h"
+#include "studies/exchange/lammps/lammps_files.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 std::size_t write_lammps_cube(const std::filesystem::path& folder, int size, long steps) {
   ConfigSource source;
@@ -14,4 +14,4 @@ std::size_t write_lammps_cube(const std::filesystem::path& folder, int size, lon
   return write_lammps(undamped_body(load_config(source)), {steps, 0}, folder).springs;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

@@ -1,6 +1,6 @@
 #include "studies/bench/plan.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 namespace {
 
@@ -73,4 +73,4 @@ BenchPlan smallest_plan() {
   return plan;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

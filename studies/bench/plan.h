@@ -7,7 +7,7 @@
 
 #include "lattice/press/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 /// A lattice to press.
 struct PressedLattice {
@@ -58,4 +58,4 @@ BenchPlan quick_plan();
 /// Seconds: to see that everything works, not to measure.
 BenchPlan smallest_plan();
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

@@ -13,7 +13,7 @@
 #include "studies/presses/press_job.h"
 #include "studies/presses/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 namespace {
 
@@ -120,4 +120,4 @@ std::string press_name(const PressedLattice& press) {
                      press.whole ? "_whole" : "");
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

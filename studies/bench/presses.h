@@ -5,7 +5,7 @@
 #include "studies/config/loader.h"
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 /// The default specimen and press of `loaded` with sticking contact, this lattice and depth.
 LoadedConfig press_config(const LoadedConfig& loaded, const PressedLattice& press, double depth);
@@ -23,4 +23,4 @@ Job static_job(const LoadedConfig& loaded, const PressedLattice& press,
 /// "network_R12_1t", "network_mass-scaled_R12_1t", "network_mass-scaled_R12_1t_whole"
 std::string press_name(const PressedLattice& press);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

@@ -11,7 +11,7 @@
 #include "meshes/press/press_response.h"
 #include "studies/jobs/json_file.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 namespace {
 
@@ -229,4 +229,4 @@ Ratios ratios_of(const KernelRounds& rounds) {
   return result;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

@@ -5,7 +5,7 @@
 
 #include "studies/bench/kernels.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline bench {
 
 /// {"multiply_adds_per_second": {ISA: rate}, "operations_per_second": {ISA: rate} (multiplications
 /// and additions in turns), "bandwidth_L2", "bandwidth_DRAM" [B/s],
@@ -34,4 +34,4 @@ struct Ratios {
 /// Each the median over rounds of the ratio within a round.
 Ratios ratios_of(const KernelRounds& rounds);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline bench

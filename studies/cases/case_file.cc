@@ -7,7 +7,7 @@
 #include <toml++/toml.h>
 #include "studies/files/places.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 namespace {
 
@@ -127,4 +127,4 @@ ConfigError at_run(const ConfigError& error, const CaseRun& run) {
   return ConfigError(std::move(problems));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

@@ -11,7 +11,7 @@
 
 #include "studies/config/loader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 /// "the measure must not exceed the limit" (studies/manual/files.md lists the measures).
 struct CaseCriterion {
@@ -136,4 +136,4 @@ std::vector<Problem> read_case_table(const std::filesystem::path& file, Case& ta
 /// The same as TOML text, which read_case_table understands.
 std::string case_toml(const Case& study_case);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

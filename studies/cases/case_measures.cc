@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 namespace {
 
@@ -73,4 +73,4 @@ Measures take_measures(const Case& study_case, const RunResults& results) {
   return taken;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

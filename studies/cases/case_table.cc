@@ -16,12 +16,12 @@
 #include "studies/cases/measures.h"
 #include "studies/cases/outputs.h"
 #include "studies/cases/planner.h"
-#include "studies/config/key_table.h"
-#include "studies/config/units.h"
+#include "studies/config/keys/key_table.h"
+#include "studies/config/text/units.h"
 #include "studies/config/value_reader.h"
 #include "studies/files/places.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 namespace {
 
@@ -393,4 +393,4 @@ std::string case_toml(const Case& study_case) {
   return text;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

@@ -7,7 +7,7 @@
 #include "studies/report/results/comparison_data.h"
 #include "studies/report/results/run_data.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 using meshes::PressResponse;
 
@@ -27,7 +27,7 @@ double estimated_force_error(const PressResponse& continuum, double depth) {
 void compare_later(const PressResponse& response, const PressResponse& reference,
                    ForceComparison& result) {
   if (reference.following().empty() || response.empty() ||
-      !reporting::same_stages(response, reference))
+      !report::same_stages(response, reference))
     return;
   const double most =
       std::ranges::max(reference.samples(), {}, &meshes::PressSample::normal_force).normal_force;
@@ -57,8 +57,8 @@ ForceComparison compare_forces(const PressResponse& response, const PressRespons
   ForceComparison result;
   result.depth = depths;
   for (const double depth : depths) {
-    const double force = reporting::force_at(response, depth);
-    const double wanted = reporting::force_at(reference, depth);
+    const double force = report::force_at(response, depth);
+    const double wanted = report::force_at(reference, depth);
     result.force.push_back(force);
     result.reference_force.push_back(wanted);
     result.reference_error.push_back(estimated_force_error(reference, depth));
@@ -80,4 +80,4 @@ PressResponse response_in(const std::filesystem::path& folder) {
   return std::filesystem::exists(file) ? PressResponse::read_csv(file) : PressResponse();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

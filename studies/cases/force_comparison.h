@@ -7,7 +7,7 @@
 
 #include "meshes/press/press_response.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 /// The larger one; NaN when either is.
 double larger(double a, double b);
@@ -45,4 +45,4 @@ std::vector<double> verdict_depths(double depth);
 /// response.csv of a press; empty when there is none.
 meshes::PressResponse response_in(const std::filesystem::path& folder);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

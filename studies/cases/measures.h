@@ -4,7 +4,7 @@
 
 #include "studies/cases/run_result.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 /// Names of the measures that the run is meant to have.
 std::vector<std::string> measures_meant(const CaseRun& run);
@@ -66,4 +66,4 @@ Members soft_variants(const RunResults& results, const std::string& series);
 /// is no longer the compliance's doing. The total is the press at x = 1 of the first part.
 Budget take_budget(const CaseBudget& budget, const RunResults& results);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

@@ -4,7 +4,7 @@
 #include "studies/cases/planner.h"
 #include "studies/files/case_summary.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 /// The columns a table may have, by their heads.
 std::vector<std::string> table_columns();
@@ -22,4 +22,4 @@ CaseSummary summary_of(const Case& study_case, const Planner& planner, const Run
 void write_summary(const CaseSummary& summary, const RunResults& results,
                    const std::filesystem::path& file);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

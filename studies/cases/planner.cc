@@ -7,17 +7,17 @@
 #include <utility>
 
 #include "studies/cases/measures.h"
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_table.h"
 #include "studies/files/read_fields.h"
-#include "studies/fits/jobs/law_job.h"
-#include "studies/fits/jobs/moduli_job.h"
+#include "studies/fits/runs/law_job.h"
+#include "studies/fits/runs/moduli_job.h"
 #include "studies/presses/grasp_job.h"
 #include "studies/presses/press_job.h"
 #include "studies/presses/press_record.h"
 #include "studies/presses/press_setup.h"
 #include "studies/presses/reference_job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 namespace {
 
@@ -303,4 +303,4 @@ RunResults Planner::results(const fs::path& folder, const std::vector<JobResult>
   return results;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

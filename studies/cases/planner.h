@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "studies/cases/run_result.h"
-#include "studies/fits/jobs/calibration_stages.h"
+#include "studies/fits/runs/calibration_stages.h"
 #include "studies/jobs/session.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 /// Letters, digits, '-' and, but for the first place, '.'; anything else becomes '_'.
 std::string as_folder(std::string text);
@@ -73,4 +73,4 @@ class Planner {
   std::set<std::string> folders_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

@@ -12,7 +12,7 @@
 #include "studies/files/run_tables.h"
 #include "studies/report/results/moving_press.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 namespace {
 
@@ -260,10 +260,10 @@ std::vector<RunMeasure> all_measures() {
        [](R run) { return run.press().momentum_defect; }},
       {"force_overshoot",
        {"press"},
-       [](R run) { return reporting::force_overshoot(run.rows<TraceRow>("trace.csv")); }},
+       [](R run) { return report::force_overshoot(run.rows<TraceRow>("trace.csv")); }},
       {"mode_switches",
        {"press"},
-       [](R run) { return reporting::mode_switches(run.rows<TraceRow>("trace.csv")); }},
+       [](R run) { return report::mode_switches(run.rows<TraceRow>("trace.csv")); }},
       {"force_error", {"beside continuum"}, [](R run) { return largest(run.result.forces.error); }},
       {"change", {"beside press"}, [](R run) { return largest(run.result.change.error); }},
       {"worst_error",
@@ -356,4 +356,4 @@ Measures measures_of_run(const Case& study_case, const RunResult& result, const 
   return taken;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

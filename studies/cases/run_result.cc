@@ -1,6 +1,6 @@
 #include "studies/cases/run_result.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 RunResults blank_results(const Case& study_case) {
   RunResults results;
@@ -12,4 +12,4 @@ RunResults blank_results(const Case& study_case) {
   return results;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

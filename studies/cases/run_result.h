@@ -13,7 +13,7 @@
 #include "studies/files/press_summary.h"
 #include "studies/jobs/cache.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 /// Measures by name; NaN, or absent: could not be taken.
 using Measures = std::map<std::string, double>;
@@ -43,4 +43,4 @@ using RunResults = std::vector<RunResult>;
 /// Of the case's runs before anything is planned: nothing is known but which results there will be.
 RunResults blank_results(const Case& study_case);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

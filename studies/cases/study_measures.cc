@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 namespace {
 
@@ -158,4 +158,4 @@ Budget take_budget(const CaseBudget& budget, const RunResults& results) {
   return taken;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

@@ -7,7 +7,7 @@
 #include "studies/files/read_fields.h"
 #include "studies/jobs/json_file.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 namespace {
 
@@ -180,4 +180,4 @@ void write_summary(const CaseSummary& summary, const RunResults& results, const 
   write_json(content, file);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

@@ -11,7 +11,7 @@
 #include "studies/cases/measures.h"
 #include "studies/files/run_tables.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 namespace {
 
@@ -127,4 +127,4 @@ void write_tables(const Case& study_case, const RunResults& results,
     write_table(table.columns, members(results, "run", table.series), folder / table.file);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

@@ -3,7 +3,7 @@
 #include "studies/cases/outputs.h"
 #include "studies/report/report.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 namespace fs = std::filesystem;
 
@@ -31,8 +31,8 @@ Verdict validate(Session& session, const Case& study_case) {
   write_tables(study_case, results, folder);
   const CaseSummary summary = summary_of(study_case, planner, results, folder);
   write_summary(summary, results, folder / "summary.json");
-  write_report(folder);
+  report::write_report(folder);
   return summary.status == "ok" ? Verdict::passed : Verdict::failed;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

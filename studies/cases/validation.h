@@ -4,7 +4,7 @@
 #include "studies/cases/case_file.h"
 #include "studies/jobs/session.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline cases {
 
 /// Whether every criterion of the case was met.
 enum class Verdict { passed, failed };
@@ -20,4 +20,4 @@ void check_case(const Case& study_case);
 /// converge: their status then says so.
 Verdict validate(Session& session, const Case& study_case);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline cases

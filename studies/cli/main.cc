@@ -11,8 +11,8 @@
 #include "meshes/base/blas.h"
 #include "meshes/base/cannot_write.h"
 #include "meshes/base/errors.h"
-#include "studies/cli/standard_streams.h"
-#include "studies/cli/verbs.h"
+#include "studies/cli/command_line/standard_streams.h"
+#include "studies/cli/verbs/verbs.h"
 
 namespace {
 

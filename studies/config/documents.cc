@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "meshes/base/files.h"
-#include "studies/config/units.h"
+#include "studies/config/text/units.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 namespace {
 
@@ -249,4 +249,4 @@ std::string parameters_toml(const LoadedConfig& loaded, const std::string& head)
   return text;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

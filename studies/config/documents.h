@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_table.h"
 #include "studies/config/loader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 /// A commented TOML file with every key at its default (verb `init`).
 std::string config_template();
@@ -28,4 +28,4 @@ std::string markdown_reference();
 /// in comments. Loading it gives the same Config. `head` is put in front as a comment.
 std::string parameters_toml(const LoadedConfig& loaded, const std::string& head);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

@@ -10,7 +10,7 @@
 #include "meshes/base/files.h"
 #include "studies/config/value_reader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 namespace {
 
@@ -258,4 +258,4 @@ void resolve_elasticity(LoadedConfig& loaded, std::vector<Problem>& problems) {
   Elasticity(loaded, problems).resolve();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

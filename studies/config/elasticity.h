@@ -3,7 +3,7 @@
 
 #include "studies/config/loaded_config.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 /// Poisson's ratio taken where E (or hardness) or G is given alone: silicones and natural rubber
 /// are nearly incompressible.
@@ -23,4 +23,4 @@ double youngs_modulus_of_hardness(double shore_a);
 /// and hardness, a stiffness beside coefficients, or where a law misses its coefficients.
 void resolve_elasticity(LoadedConfig& loaded, std::vector<Problem>& problems);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

@@ -10,10 +10,10 @@
 #include "meshes/cells/cubic_grid.h"
 #include "meshes/cells/surface_points.h"
 #include "meshes/shape/geometry.h"
-#include "studies/config/key_table.h"
-#include "studies/config/units.h"
+#include "studies/config/keys/key_table.h"
+#include "studies/config/text/units.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::vector<std::string> spacing_notes(const LoadedConfig& loaded) {
                   thin.empty() ? "" : "; ", thin)};
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

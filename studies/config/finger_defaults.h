@@ -3,7 +3,7 @@
 
 #include "studies/config/loaded_config.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 /// Where lattice.spacing, press.depth and calibration.depth are left at defaults that this finger
 /// cannot have, values that it can: a spacing of tip_radius/N, N whole, just fine enough for its
@@ -21,4 +21,4 @@ std::vector<std::string> spacing_notes(const LoadedConfig& loaded);
 /// lattice would do for that. Empty for fingers of nearly one wall, and for domes.
 std::string thin_part(const meshes::Geometry& geometry);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

@@ -5,7 +5,7 @@
 #include "calibration/files/words.h"
 #include "meshes/base/files.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 using calibration::CardValue;
 using calibration::LawCard;
@@ -86,4 +86,4 @@ std::vector<std::string> card_warnings(const LawCard& card, const LoadedConfig& 
   return found;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

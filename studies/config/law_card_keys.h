@@ -8,7 +8,7 @@
 #include "calibration/material_tests/law_card.h"
 #include "studies/config/loaded_config.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 /// Branches as rubber.relaxation takes them: [[0.2, "0.1 s"]].
 std::string branches_literal(const std::vector<meshes::RelaxationBranch>& branches);
@@ -23,4 +23,4 @@ std::vector<std::pair<std::string, std::string>> keys_of(const calibration::LawC
 std::vector<std::string> card_warnings(const calibration::LawCard& card,
                                        const LoadedConfig& loaded);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

@@ -1,9 +1,9 @@
 #include "studies/config/loaded_config.h"
 
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_table.h"
 #include "studies/config/value_reader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 namespace {
 
@@ -61,4 +61,4 @@ ConfigError refused(const LoadedConfig& loaded, const std::string& key, const st
   return loaded.locate({{key, value, rule, remedy}});
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

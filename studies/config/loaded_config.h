@@ -10,9 +10,9 @@
 
 #include "calibration/material/material.h"
 #include "meshes/base/errors.h"
-#include "studies/config/config.h"
+#include "studies/config/keys/config.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 /// One thing that is wrong with the input, and where it was written.
 struct Problem {
@@ -62,4 +62,4 @@ struct LoadedConfig {
 ConfigError refused(const LoadedConfig& loaded, const std::string& key, const std::string& value,
                     const std::string& rule, const std::string& remedy);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

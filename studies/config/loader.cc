@@ -11,15 +11,15 @@
 #include "meshes/base/files.h"
 #include "studies/config/elasticity.h"
 #include "studies/config/finger_defaults.h"
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_table.h"
 #include "studies/config/law_card_keys.h"
 #include "studies/config/press_depths.h"
-#include "studies/config/profile_file.h"
-#include "studies/config/trimmed.h"
-#include "studies/config/units.h"
+#include "studies/config/shapes/profile_file.h"
+#include "studies/config/text/trimmed.h"
+#include "studies/config/text/units.h"
 #include "studies/config/value_reader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 namespace {
 
@@ -321,4 +321,4 @@ LoadedConfig load_config(const ConfigSource& source) {
   return reader.finish();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

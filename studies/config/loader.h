@@ -8,7 +8,7 @@
 
 #include "studies/config/loaded_config.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 /// What the user gave, in the order of precedence: defaults < file < sets < threads.
 struct ConfigSource {
@@ -26,4 +26,4 @@ LoadedConfig load_config(const ConfigSource& source);
 /// The same configuration with further --set, e.g. for a series of runs. Throws ConfigError.
 LoadedConfig with_sets(const LoadedConfig& loaded, const std::vector<std::string>& further_sets);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/config/key_builders.h"
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_builders.h"
+#include "studies/config/keys/key_table.h"
 #include "studies/config/value_reader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 namespace {
 
@@ -71,4 +71,4 @@ void resolve_depths(LoadedConfig& loaded, std::vector<Problem>& problems) {
   protocol.depth = protocol.samples.back();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "meshes/base/files.h"
-#include "studies/config/trimmed.h"
-#include "studies/config/units.h"
+#include "studies/config/text/trimmed.h"
+#include "studies/config/text/units.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 namespace {
 
@@ -406,4 +406,4 @@ std::string default_literal(const Key& key) {
   return toml_literal(*toml::parse("v = " + key.preset).get("v"));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

@@ -6,9 +6,9 @@
 
 #include <toml++/toml.h>
 
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_table.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline config {
 
 /// Throws UnitError (rule and remedy) when the node is not what `key` declares, is not finite or
 /// lies outside the key's range.
@@ -29,4 +29,4 @@ std::string unquoted(const std::string& literal);
 /// The default as entries have it: "1e-6" is "1e-06" there.
 std::string default_literal(const Key& key);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline config

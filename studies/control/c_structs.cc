@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline control {
 
 using lattice::ControllerFailed;
 using meshes::Vector3;
@@ -138,4 +138,4 @@ lattice::Command command_of(const fingertip_command& c) {
   }
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline control

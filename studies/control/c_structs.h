@@ -7,7 +7,7 @@
 #include "lattice/control/task.h"
 #include "studies/control/fingertip_controller.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline control {
 
 /// Where the task's way is at `time` [s]; nothing for a task without one.
 std::optional<lattice::Target> set_point(const lattice::ControlTask& task, double time);
@@ -25,4 +25,4 @@ fingertip_command empty_c_command();
 /// What the answer says, checked. Throws ControllerFailed, also for a kind that does not exist.
 lattice::Command command_of(const fingertip_command& command);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline control

@@ -13,7 +13,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline control {
 
 namespace {
 
@@ -145,4 +145,4 @@ std::optional<LineConnection> Listener::accept() {
   return LineConnection(std::move(client));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline control

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline control {
 
 /// "unix:PATH" (a socket in the file system, for this user only) or "tcp:127.0.0.1:PORT" (0: any
 /// free port). Other machines have no way in.
@@ -79,4 +79,4 @@ class Listener {
   bool made_ = false;  ///< the file at address_.path
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline control

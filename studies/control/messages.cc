@@ -7,7 +7,7 @@
 
 #include "studies/control/c_structs.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline control {
 
 using lattice::ControllerFailed;
 using meshes::Vector3;
@@ -178,4 +178,4 @@ lattice::Command parse_command(std::string_view line) {
   return checked(lattice::Wrench{Vector3(w[0], w[1], w[2]), Vector3(w[3], w[4], w[5])});
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline control

@@ -8,7 +8,7 @@
 #include "lattice/control/controller.h"
 #include "lattice/control/task.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline control {
 
 inline constexpr int control_protocol_version = 1;
 inline constexpr std::size_t longest_control_line = 65536;  ///< [bytes], without the line feed
@@ -28,4 +28,4 @@ void check_hello(std::string_view line);
 /// object with one of "wrench" and "target" and nothing unknown in it.
 lattice::Command parse_command(std::string_view line);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline control

@@ -6,7 +6,7 @@
 
 #include "studies/control/c_structs.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline control {
 
 using lattice::ControllerFailed;
 
@@ -94,4 +94,4 @@ void SharedObjectController::reset() {
   if (code != FINGERTIP_OK) fail("reset", code);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline control

@@ -7,7 +7,7 @@
 #include "lattice/control/controller.h"
 #include "lattice/control/task.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline control {
 
 /// The object runs within the program: what it returns is checked, but if it crashes the program
 /// does, and the run waits as long as it takes (a SocketController can die and hang on its own).
@@ -31,4 +31,4 @@ class SharedObjectController final : public lattice::Controller {
   void* self_ = nullptr;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline control

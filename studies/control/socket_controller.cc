@@ -11,7 +11,7 @@
 #include "studies/control/c_structs.h"
 #include "studies/control/messages.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline control {
 
 using lattice::ControllerFailed;
 
@@ -157,4 +157,4 @@ lattice::Command SocketController::command(const lattice::Measurement& measureme
   }
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline control

@@ -10,7 +10,7 @@
 #include "lattice/control/task.h"
 #include "studies/control/local_socket.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline control {
 
 struct SocketSettings {
   LocalAddress address;
@@ -55,4 +55,4 @@ class SocketController final : public lattice::Controller {
   long cycle_ = 0;      ///< of the next measurement, since the start or reset
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline control

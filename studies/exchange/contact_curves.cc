@@ -10,7 +10,7 @@
 #include "studies/presses/press_setup.h"
 #include "studies/presses/reference_job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 namespace {
 
@@ -136,4 +136,4 @@ std::vector<Problem> lost_in_contact(const LoadedConfig& loaded) {
   return lost;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

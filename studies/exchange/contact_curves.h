@@ -9,7 +9,7 @@
 #include "studies/config/loader.h"
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 /// A press against one obstacle.
 struct ContactCurve {
@@ -51,4 +51,4 @@ std::vector<meshes::Violation> not_straight(const meshes::PressProtocol& protoco
 /// What is not handed over of this press, with what to do; the first word is the key.
 std::vector<Problem> lost_in_contact(const LoadedConfig& loaded);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

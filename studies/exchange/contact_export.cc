@@ -11,7 +11,7 @@
 #include "studies/files/read_fields.h"
 #include "studies/jobs/json_file.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 namespace {
 
@@ -121,4 +121,4 @@ void write_contact_export(const ContactExport& made, const std::filesystem::path
   write("README.md", readme);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -7,7 +7,7 @@
 
 #include "studies/exchange/contact_source.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 /// The curves that an export is made of. Throws ConfigError for what no press of the continuum
 /// makes good: as ContactCurves, and an obstacle that the format cannot have.
@@ -25,4 +25,4 @@ ContactExport lattice_export(const std::string& format, const std::string& readm
 
 void write_contact_export(const ContactExport& made, const std::filesystem::path& folder);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -10,7 +10,7 @@
 #include "studies/exchange/soft_body.h"
 #include "studies/exchange/transfer.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 /// What an export is made of. The references must outlive it.
 class ContactSource {
@@ -42,4 +42,4 @@ struct ContactExport {
   std::map<std::string, ContactExport> parts;  ///< exports in folders of their own
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

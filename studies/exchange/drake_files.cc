@@ -8,7 +8,7 @@
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 namespace {
 
@@ -87,4 +87,4 @@ ContactExport drake_export(const ContactSource& source) {
   return made;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

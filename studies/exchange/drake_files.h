@@ -5,9 +5,9 @@
 
 #include "studies/exchange/contact_source.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 /// finger.sdf
 ContactExport drake_export(const ContactSource& source);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -8,8 +8,8 @@
 
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
-#include "studies/config/key_table.h"
-#include "studies/config/surface_cache.h"
+#include "studies/config/keys/key_table.h"
+#include "studies/config/shapes/surface_cache.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
 #include "studies/fmu/fmu_variables.h"
@@ -17,7 +17,7 @@
 #include "studies/jobs/provenance.h"
 #include "studies/presses/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 namespace fs = std::filesystem;
 
@@ -156,4 +156,4 @@ void write_fmu(const FmuExport& unit, const fs::path& folder) {
   fs::remove(folder / "zip.log");
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -7,7 +7,7 @@
 
 #include "studies/config/loader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 struct FmuExport {
   struct File {
@@ -28,4 +28,4 @@ std::string fmu_readme(const FmuExport& unit);
 /// shared object is missing.
 void write_fmu(const FmuExport& unit, const std::filesystem::path& folder);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -11,7 +11,7 @@
 #include "meshes/shape/geometry.h"
 #include "studies/exchange/soft_body.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 namespace {
 
@@ -208,4 +208,4 @@ ContactExport mujoco_export(const ContactSource& source) {
   return made;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

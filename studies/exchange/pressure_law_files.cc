@@ -8,7 +8,7 @@
 #include "meshes/shape/geometry.h"
 #include "studies/files/read_fields.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 namespace {
 
@@ -87,4 +87,4 @@ ContactExport pressure_law_export(const ContactSource& source) {
   return made;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -8,7 +8,7 @@
 #include "meshes/tables/file_fields.h"
 #include "studies/exchange/contact_source.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 /// pressure_law.json: p in Pa over d in m.
 struct PressureLawFile {
@@ -36,4 +36,4 @@ constexpr auto fields_of(const PressureLawFile*) {
 /// Throws InvalidInput where that curve does not grow.
 ContactExport pressure_law_export(const ContactSource& source);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -9,7 +9,7 @@
 #include "studies/exchange/soft_body.h"
 #include "studies/presses/pictures/vtk_text.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 namespace {
 
@@ -117,4 +117,4 @@ ContactExport vtk_export(const ContactSource& source) {
   return made;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -9,7 +9,7 @@
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 namespace {
 
@@ -95,4 +95,4 @@ std::string summary(const SoftBody& body, const ContactCurve& curve) {
                      body.poissons_ratio, body.body.mesh.vertices.size(), body.limit(curve));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -7,7 +7,7 @@
 #include "calibration/contact_laws/tetrahedral_body.h"
 #include "studies/exchange/transfer.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 struct SoftBody {
   calibration::TetrahedralBody body;
@@ -38,4 +38,4 @@ ForetoldModel foretold(const std::string& name, const SoftBody& body);
 std::string description(const SoftBody& body);
 std::string summary(const SoftBody& body, const ContactCurve& curve);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 namespace {
 
@@ -145,4 +145,4 @@ std::string transfer_lines(const TransferFile& transfer) {
   return text;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

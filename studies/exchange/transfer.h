@@ -8,7 +8,7 @@
 #include "studies/exchange/contact_curves.h"
 #include "studies/files/transfer_file.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline exchange {
 
 /// A model by its name, and the forces it has on a curve's obstacle at the curve's indentations,
 /// NaN where that is not known [N].
@@ -34,4 +34,4 @@ std::string transfer_chapters(const TransferFile& transfer);
 /// it carries.
 std::string transfer_lines(const TransferFile& transfer);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline exchange

@@ -9,7 +9,7 @@
 #include "meshes/tables/file_fields.h"
 #include "studies/files/press_summary.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// A criterion of a case.
 struct CriterionEntry {
@@ -282,4 +282,4 @@ constexpr auto fields_of(const CaseSummary*) {
       named("criteria", &Whole::criteria));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

@@ -5,7 +5,7 @@
 #include "meshes/base/text_file.h"
 #include "meshes/press/press_response.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 namespace fs = std::filesystem;
 
@@ -65,4 +65,4 @@ void FolderReader::throw_if_damaged() const {
   if (!damage_.empty()) throw meshes::InvalidInput(damage_);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

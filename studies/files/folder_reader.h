@@ -12,7 +12,7 @@
 #include "meshes/tables/table_rows.h"
 #include "studies/files/read_fields.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// Reads files of run folders and notes those that are damaged, so that the rest can be read. An
 /// absent file gives an empty result, which is no damage: no run has every file.
@@ -62,4 +62,4 @@ class FolderReader {
   std::vector<meshes::Violation> damage_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

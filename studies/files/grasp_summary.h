@@ -9,7 +9,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// summary.json of `grasp`.
 struct GraspSummary {
@@ -37,4 +37,4 @@ constexpr auto fields_of(const GraspSummary*) {
       &Whole::wall_time);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

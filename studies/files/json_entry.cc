@@ -8,7 +8,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/csv_table.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 namespace {
 
@@ -205,4 +205,4 @@ JsonList array_if_any(const JsonEntry& entry, const std::string& key) {
   return entry.at(key).elements();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

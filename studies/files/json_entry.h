@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// The JSON object in a file. Throws InvalidInput naming file, line and column when it cannot be
 /// read, is no JSON, or holds something else than an object.
@@ -93,4 +93,4 @@ std::string text_if_any(const JsonEntry& entry, const std::string& key);
 JsonEntry object_if_any(const JsonEntry& entry, const std::string& key);
 JsonList array_if_any(const JsonEntry& entry, const std::string& key);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

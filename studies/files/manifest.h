@@ -11,7 +11,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// manifest.json; an exit code when the run has ended.
 struct Manifest {
@@ -38,4 +38,4 @@ constexpr auto fields_of(const Manifest*) {
       if_known(named("exit_code error", &Whole::exit_code, &Whole::error)));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

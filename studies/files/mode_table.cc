@@ -6,7 +6,7 @@
 #include "meshes/tables/table_rows.h"
 #include "studies/files/run_tables.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 namespace {
 
@@ -41,4 +41,4 @@ std::vector<VibrationMode> vibration_modes(const meshes::CsvTable& table) {
   return modes;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

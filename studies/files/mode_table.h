@@ -8,7 +8,7 @@
 #include "meshes/shape/geometry.h"
 #include "meshes/tables/csv_table.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// A row of modes.csv, of whichever model.
 struct VibrationMode {
@@ -29,4 +29,4 @@ struct VibrationMode {
 /// Throws InvalidInput naming the file and what is missing or damaged.
 std::vector<VibrationMode> vibration_modes(const meshes::CsvTable& table);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

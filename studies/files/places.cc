@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 namespace fs = std::filesystem;
 
@@ -45,4 +45,4 @@ fs::path cache_folder() {
   return fs::temp_directory_path(none) / "fingertip-cache";
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

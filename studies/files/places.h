@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// The folder of the project's programs: where this code's own file is, or of the Python module the
 /// nearest `bin` above it that has them.
@@ -22,4 +22,4 @@ std::filesystem::path reference_program();
 /// $XDG_CACHE_HOME/fingertip, else ~/.cache/fingertip.
 std::filesystem::path cache_folder();
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

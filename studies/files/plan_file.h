@@ -9,7 +9,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// A parameter of a plan, in `unit`: its value there and the 95 % interval that is to be expected.
 struct PlannedParameter {
@@ -74,4 +74,4 @@ constexpr auto fields_of(const PlanFile*) {
       &Whole::wall_time, &Whole::statement);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

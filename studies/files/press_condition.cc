@@ -8,7 +8,7 @@
 
 #include "studies/files/shown_units.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 namespace {
 
@@ -180,4 +180,4 @@ std::optional<ComparisonRemark> remark_on(const std::string& press_name,
   return remark;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

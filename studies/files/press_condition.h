@@ -9,7 +9,7 @@
 #include "meshes/press/press_response.h"
 #include "studies/files/folder_reader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// SI. NaN and "" where a file does not tell.
 struct PressCondition {
@@ -55,4 +55,4 @@ std::optional<ComparisonRemark> remark_on(const std::string& press_name,
                                           const std::string& other_name,
                                           const std::optional<PressCondition>& other);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

@@ -9,7 +9,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// The finger [m].
 struct GeometryEntry {
@@ -275,4 +275,4 @@ constexpr auto fields_of(const PressSummary*) {
       only(&Whole::controlled, named("tracking end", &Whole::tracking, &Whole::end)));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

@@ -15,7 +15,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 namespace {
 
@@ -127,4 +127,4 @@ int run_process(const Command& command, const fs::path& output, const std::funct
   return stop ? wait_or_stop(child, stop) : wait_for(child);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// A program with its arguments and where it is to work.
 struct Command {
@@ -38,4 +38,4 @@ int wait_for(pid_t child);
 int run_process(const Command& command, const std::filesystem::path& output,
                 const std::function<bool()>& stop = {});
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

@@ -10,7 +10,7 @@
 #include "meshes/tables/fields_json.h"
 #include "studies/files/json_entry.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 using meshes::HasFileFields, meshes::for_each_field, meshes::is_list, meshes::is_map,
     meshes::is_optional, meshes::json_of;
@@ -72,4 +72,4 @@ Struct struct_of(const JsonEntry& entry) {
   return result;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

@@ -8,7 +8,7 @@
 #include "meshes/tables/file_fields.h"
 #include "studies/files/transfer_file.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// A short press on this machine.
 struct PaceTrialEntry {
@@ -54,4 +54,4 @@ constexpr auto fields_of(const RealTimeRecord*) {
 
 inline constexpr const char* real_time_name = "real_time.json";
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

@@ -9,7 +9,7 @@
 #include "meshes/shape/geometry.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// boundary.csv: a boundary mass, at rest in the rod's frame and at the end in the plane's.
 struct BoundaryRow {
@@ -263,4 +263,4 @@ constexpr auto fields_of(const TransferRow*) {
                     field("status", &Row::status)};
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

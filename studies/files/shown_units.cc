@@ -8,7 +8,7 @@
 #include <regex>
 #include <vector>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 namespace {
 
@@ -150,4 +150,4 @@ ShowIn::~ShowIn() {
   today = before_;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

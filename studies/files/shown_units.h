@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 enum class UnitSystem {
   si,     ///< mN, mm, kPa
@@ -70,4 +70,4 @@ class ShowIn {
   UnitSystem before_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

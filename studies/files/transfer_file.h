@@ -7,7 +7,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline files {
 
 /// A model of the other program on one obstacle; SI. NaN: not known.
 struct TransferModelEntry {
@@ -46,4 +46,4 @@ constexpr auto fields_of(const TransferFile*) {
                        &Whole::obstacles);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline files

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fmu {
 
 struct FmuVariable {
   std::string_view name, unit, description;
@@ -45,4 +45,4 @@ inline constexpr std::size_t fmu_inputs = 6;
 /// File of the settings among the unit's resources.
 inline constexpr const char* fmu_settings = "parameters.toml";
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fmu

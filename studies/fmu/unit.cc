@@ -14,7 +14,7 @@
 
 #define FINGERTIP_FMI extern "C" __attribute__((visibility("default")))
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fmu {
 
 namespace {
 
@@ -322,4 +322,4 @@ FINGERTIP_FMI fmi2Status fmi2GetStringStatus(fmi2Component, fmi2StatusKind, fmi2
   return fmi2Discard;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fmu

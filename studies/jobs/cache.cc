@@ -8,7 +8,7 @@
 #include "studies/jobs/json_file.h"
 #include "studies/jobs/result_files.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 namespace fs = std::filesystem;
 
@@ -112,4 +112,4 @@ bool Cache::store(const Job& job, const fs::path& source) const {
   return stored;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -5,7 +5,7 @@
 
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 /// Status of a job that went well.
 inline constexpr const char* finished = "finished";
@@ -52,4 +52,4 @@ class Cache {
   std::filesystem::path folder_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -5,7 +5,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 std::string sha256(std::string_view text) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
@@ -22,4 +22,4 @@ std::string sha256(std::string_view text) {
   return hexadecimal;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

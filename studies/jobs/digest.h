@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 /// 64 hexadecimal digits.
 std::string sha256(std::string_view text);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

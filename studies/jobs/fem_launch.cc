@@ -6,7 +6,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::vector<pid_t> children_of(pid_t parent) {
   return children;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

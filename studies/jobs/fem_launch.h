@@ -8,7 +8,7 @@
 
 #include "studies/files/process.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 struct FemCommand : Command {
   bool under_mpirun = false;
@@ -22,4 +22,4 @@ FemCommand fem_command(const std::filesystem::path& program, const std::filesyst
 /// The processes whose parent is `parent`: of mpirun, the ranks.
 std::vector<pid_t> children_of(pid_t parent);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -15,10 +15,11 @@
 
 #include "meshes/base/errors.h"
 #include "meshes/press/no_equilibrium.h"
+#include "meshes/tables/file_fields.h"
 #include "studies/jobs/fem_launch.h"
 #include "studies/jobs/json_file.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 namespace {
 
@@ -244,4 +245,4 @@ void run_fem_process(const std::filesystem::path& program, const std::filesystem
   if (code != 0) raise(code, watch, program, folder);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -5,7 +5,7 @@
 
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 /// Runs `program` on `folder` (with its job.json inside) as `context.ranks` MPI ranks and waits.
 /// Its stdout, JSON lines {"stage", "done", "total", "message", "left", "memory"}, becomes
@@ -17,4 +17,4 @@ namespace fingertip::studies {
 void run_fem_process(const std::filesystem::path& program, const std::filesystem::path& folder,
                      const JobContext& context);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 namespace fs = std::filesystem;
 
@@ -70,4 +70,4 @@ void remove_abandoned_parts(const fs::path& folder, const FileLock& lock) {
   remove_parts(folder, true, lock.held());
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

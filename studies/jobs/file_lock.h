@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 /// Held by at most one process; the system releases it when that one ends, however it ends. `path`
 /// is a folder, or a file, which is made when it is not there.
@@ -31,4 +31,4 @@ void remove_abandoned_parts(const std::filesystem::path& folder);
 /// next run. Where the file system knows no locks the number decides.
 void remove_abandoned_parts(const std::filesystem::path& folder, const FileLock& lock);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

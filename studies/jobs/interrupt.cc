@@ -3,7 +3,7 @@
 #include <csignal>
 #include <optional>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 namespace {
 
@@ -47,4 +47,4 @@ bool interrupted() {
   return stop_requested != 0;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -10,7 +10,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 struct PlannedJob;
 
@@ -62,4 +62,4 @@ struct PlannedJob {
   bool exhibit = false;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -5,7 +5,7 @@
 #include "meshes/tables/fields_json.h"
 #include "studies/files/json_entry.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 void write_json(const nlohmann::ordered_json& content, const std::filesystem::path& file) {
   meshes::write_json_file(content, file);
@@ -23,4 +23,4 @@ nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 /// Throws std::runtime_error when the file cannot be written.
 void write_json(const nlohmann::ordered_json& content, const std::filesystem::path& file);
@@ -19,4 +19,4 @@ double number_of(const nlohmann::ordered_json& value);
 /// NaN and infinities, which JSON cannot hold, become null.
 nlohmann::ordered_json number_or_null(double value);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

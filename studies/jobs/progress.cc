@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 namespace {
 
@@ -132,4 +132,4 @@ void Progress::clear() {
   }
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

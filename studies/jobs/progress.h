@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 enum class ProgressStyle {
   tty,    ///< one line with a bar, rewritten in place
@@ -78,4 +78,4 @@ class Progress {
   std::mutex mutex_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -18,7 +18,7 @@
 
 #include "meshes/base/blas.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 namespace {
 
@@ -87,4 +87,4 @@ std::string utc_now() {
       fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 /// The program's version, e.g. "0.1.0".
 std::string program_version();
@@ -18,4 +18,4 @@ nlohmann::ordered_json host_description();
 /// UTC time as "2026-11-20T05:12:00Z".
 std::string utc_now();
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

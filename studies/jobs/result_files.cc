@@ -7,7 +7,7 @@
 #include "studies/jobs/digest.h"
 #include "studies/jobs/json_file.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 namespace fs = std::filesystem;
 
@@ -86,4 +86,4 @@ void rewrite_result(const fs::path& folder, const std::string& name,
   write_marker(std::move(marker), folder);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 /// Written last into a job's folder: its presence with the right key says that the job is done.
 inline constexpr const char* marker_name = "finished.json";
@@ -39,4 +39,4 @@ void write_marker(nlohmann::ordered_json marker, const std::filesystem::path& fo
 void rewrite_result(const std::filesystem::path& folder, const std::string& name,
                     const nlohmann::ordered_json& content);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

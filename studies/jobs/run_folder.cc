@@ -17,7 +17,7 @@
 #include "studies/jobs/fresh_folder.h"
 #include "studies/jobs/provenance.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 namespace {
 
@@ -216,4 +216,4 @@ void RunFolder::finish(const std::string& status, int exit_code, const std::stri
   fs::remove_all(path_ / replaced_name);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

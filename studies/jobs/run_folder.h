@@ -10,7 +10,7 @@
 #include "studies/files/manifest.h"
 #include "studies/jobs/file_lock.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 struct RunFolderOptions {
   std::string verb;
@@ -59,4 +59,4 @@ class RunFolder {
   std::unique_ptr<FileLock> lock_;  ///< keeps others out as long as this lives
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

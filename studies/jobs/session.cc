@@ -13,7 +13,7 @@
 #include "studies/jobs/interrupt.h"
 #include "studies/jobs/result_files.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 namespace fs = std::filesystem;
 
@@ -165,4 +165,4 @@ std::vector<JobResult> Session::run_all(const std::vector<PlannedJob>& planned) 
   return results;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

@@ -10,7 +10,7 @@
 #include "studies/jobs/progress.h"
 #include "studies/jobs/run_folder.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline jobs {
 
 struct JobResult {
   std::string name;
@@ -64,4 +64,4 @@ class Session {
   int ranks_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline jobs

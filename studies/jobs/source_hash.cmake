@@ -35,12 +35,12 @@ hash_rooms(calibration meshes lattice calibration)
 hash_rooms(everything meshes lattice fem_reference calibration studies)
 
 set(header "#pragma once
-namespace fingertip::studies::source_hash {
+namespace fingertip::studies::inline jobs::source_hash {
 inline constexpr const char* reference = \"${reference}\";
 inline constexpr const char* lattice = \"${lattice}\";
 inline constexpr const char* calibration = \"${calibration}\";
 inline constexpr const char* everything = \"${everything}\";
-}  // namespace fingertip::studies::source_hash
+}  // namespace fingertip::studies::inline jobs::source_hash
 ")
 if(EXISTS ${OUTPUT})
   file(READ ${OUTPUT} existing)

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 namespace {
 
@@ -81,4 +81,4 @@ bool RateLimit::pass(double now) {
   return true;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

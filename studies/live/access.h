@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 /// 128 random bits in hexadecimal.
 std::string random_token();
@@ -57,4 +57,4 @@ class RateLimit {
   double last_ = 0.0;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

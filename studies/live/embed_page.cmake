@@ -19,7 +19,7 @@ foreach(name ${FILES})
 endforeach()
 file(WRITE ${OUTPUT}
   "#include \"studies/live/page_files.h\"\n\n"
-  "namespace fingertip::studies {\n\n"
+  "namespace fingertip::studies::inline live {\n\n"
   "const std::vector<PageFile>& page_files() {\n  static const std::vector<PageFile> files = {\n"
   "${table}  };\n  return files;\n}\n\n"
-  "}  // namespace fingertip::studies\n")
+  "}  // namespace fingertip::studies::inline live\n")

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 Hand::Hand(const Eigen::Matrix<double, 6, 6>& inertia, const HandSettings& settings)
     : inertia_(inertia),
@@ -31,4 +31,4 @@ lattice::Wrench Hand::wrench(const lattice::Measurement& m) {
   return last_;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -6,7 +6,7 @@
 
 #include "lattice/control/controller.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 /// A critically damped spring between a handle and the rod's endpoint: the virtual coupling of
 /// haptic rendering (Colgate, Stanley & Brown 1995), with the rod's inertia I as its shape,
@@ -42,4 +42,4 @@ class Hand {
   lattice::Wrench last_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -1,6 +1,6 @@
 #include "studies/live/live_controller.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 using lattice::Command;
 using lattice::Target;
@@ -46,4 +46,4 @@ void LiveController::set_servo(const lattice::PidSettings& settings) {
   servo_.set_settings(settings);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

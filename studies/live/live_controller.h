@@ -7,7 +7,7 @@
 #include "lattice/control/task.h"
 #include "studies/live/hand.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 /// Commands what the configured controller does (set points go through a servo whose gains may
 /// change), plus the hand's wrench. The built-in PID is the servo on the way of the press.
@@ -42,4 +42,4 @@ class LiveController final : public lattice::Controller {
   bool on_ = true;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

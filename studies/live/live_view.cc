@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "meshes/press/fields.h"
+#include "meshes/shape/solid.h"
 #include "meshes/tables/fields_json.h"
 #include "studies/live/server.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 namespace {
 
@@ -76,4 +78,4 @@ double run_live_view(
   return simulation.slowest_factor();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -8,7 +8,7 @@
 
 #include "lattice/press/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 struct LiveOptions {
   int port = 0;                       ///< on 127.0.0.1; 0: a free one
@@ -27,4 +27,4 @@ double run_live_view(
     const lattice::PressSetup& setup, const LiveOptions& options,
     const std::function<void(const std::string& url, const std::string& remark)>& ready);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 namespace {
 
@@ -53,4 +53,4 @@ void MovingSetPoint::restart(double distance) {
   plan();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -3,7 +3,7 @@
 
 #include "meshes/press/press_motion.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 /// Distance along the way of the press [m] that runs to a wanted place at a wanted speed, with
 /// bounded acceleration a: the speed tends to the least of the wanted one and that from which it
@@ -34,4 +34,4 @@ class MovingSetPoint {
   meshes::SetPoint now_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

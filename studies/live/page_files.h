@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 struct PageFile {
   std::string_view path;  ///< "/" + name below page/; index.html is "/"
@@ -14,4 +14,4 @@ struct PageFile {
 
 const std::vector<PageFile>& page_files();
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -10,7 +10,7 @@
 #include "studies/live/page_files.h"
 #include "studies/live/protocol.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 namespace {
 
 /// Everything a browser must not do with the page.
@@ -92,4 +92,4 @@ int PageServer::serve(mg_connection* connection, int port, const Access& access)
   return 200;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

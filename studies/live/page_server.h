@@ -12,7 +12,7 @@
 
 struct mg_connection;
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 /// What a request shows of who asks.
 Credentials credentials_of(const mg_connection* connection);
@@ -30,4 +30,4 @@ class PageServer {
   std::map<std::string, std::pair<std::string, std::string>, std::less<>> files_;  ///< type, text
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -8,7 +8,7 @@
 
 #include "meshes/shape/meridian.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 namespace {
 
@@ -269,4 +269,4 @@ std::string encode_frame(const LiveFrame& frame, const std::vector<LiveRow>& row
   return bytes;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -11,7 +11,7 @@
 #include "studies/files/shown_units.h"
 #include "studies/live/rig.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 /// Of the protocol; it changes when an old page could misread a new program.
 inline constexpr int live_protocol_version = 1;
@@ -80,4 +80,4 @@ std::string encode_error(const std::string& text);
 /// whether the obstacle holds it. Little-endian.
 std::string encode_frame(const LiveFrame& frame, const std::vector<LiveRow>& rows);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

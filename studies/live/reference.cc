@@ -8,7 +8,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/text_file.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::string encode_overlay(const Overlay& overlay) {
   return bytes;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -10,7 +10,7 @@
 #include "studies/files/press_condition.h"
 #include "studies/live/surface_fields.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 /// A run's surface at one indentation.
 struct Overlay {
@@ -37,4 +37,4 @@ Reference read_reference(const std::filesystem::path& file);
 /// displacements (3 per point each) [m], uint32 pairs of points. Little-endian.
 std::string encode_overlay(const Overlay& overlay);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 using meshes::Vector3;
 
@@ -162,4 +162,4 @@ LivePicture LiveRig::picture() const {
   return picture;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

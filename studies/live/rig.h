@@ -13,7 +13,7 @@
 #include "studies/live/live_controller.h"
 #include "studies/live/moving_set_point.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 /// What sliders set. SI.
 struct LiveSettings {
@@ -101,4 +101,4 @@ class LiveRig {
   std::unique_ptr<lattice::ControlLoop> loop_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

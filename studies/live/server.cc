@@ -28,7 +28,7 @@ extern "C" int pthread_attr_setstacksize(pthread_attr_t* attributes, std::size_t
   return original(attributes, size < least ? least : size);
 }
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 namespace {
 
@@ -394,4 +394,4 @@ int LiveServer::clients() const {
   return implementation_->clients();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -8,7 +8,7 @@
 #include "studies/live/reference.h"
 #include "studies/live/simulation.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 struct ServerOptions {
   int port = 0;  ///< 0: a free one
@@ -44,4 +44,4 @@ class LiveServer {
   std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

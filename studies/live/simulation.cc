@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 namespace {
 
@@ -250,4 +250,4 @@ void Simulation::publish(bool in_any_case) {
   if (on_frame_) on_frame_();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

@@ -15,7 +15,7 @@
 #include "meshes/press/press_response.h"
 #include "studies/live/protocol.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 /// Rows of the plots with a running number, the oldest ones dropped; from `first` on.
 struct LiveRows {
@@ -88,4 +88,4 @@ class Simulation {
   std::thread thread_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

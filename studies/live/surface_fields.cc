@@ -14,7 +14,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 using meshes::Vector3;
 
@@ -280,4 +280,4 @@ SurfaceMesh completed(const SurfaceMesh& part) {
   return whole;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

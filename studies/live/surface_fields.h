@@ -8,7 +8,7 @@
 
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline live {
 
 /// Points of a surface and the edges between them.
 struct SurfaceMesh {
@@ -34,4 +34,4 @@ SurfaceMesh outer_surface(const HexahedralField& field);
 /// With the mirror images in x = 0 and y = 0 added, in each of the two where the mesh ends there.
 SurfaceMesh completed(const SurfaceMesh& part);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline live

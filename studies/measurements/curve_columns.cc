@@ -7,10 +7,10 @@
 #include <functional>
 #include <utility>
 
-#include "studies/config/units.h"
+#include "studies/config/text/units.h"
 #include "studies/measurements/curve_text.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 namespace {
 
@@ -257,4 +257,4 @@ TextTables CurveColumns::tables(string_view text) {
   return tables_in(text, layout, choose, problems_);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -6,7 +6,7 @@
 
 #include "studies/measurements/curve_source.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 /// A column's name and SI unit, "1" for a number without dimension.
 struct Quantity {
@@ -66,4 +66,4 @@ class CurveColumns {
   FileProblems& problems_;
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -12,7 +12,7 @@
 #include "studies/measurements/curve_rows.h"
 #include "studies/measurements/curve_text.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 namespace {
 
@@ -323,4 +323,4 @@ std::vector<MeasuredFile> read_measured(const CurveSource& source,
   return CurveReader(source, allowed, in_time).read();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

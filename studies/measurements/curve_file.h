@@ -10,7 +10,7 @@
 #include "calibration/statistics/curve.h"
 #include "studies/measurements/curve_columns.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 /// A comment "# press.contact = "stick"": how the curve was measured, for --set.
 struct MeasuredSetting {
@@ -63,4 +63,4 @@ std::vector<MeasuredFile> read_measured(const CurveSource& source,
                                         const std::vector<CurveQuantities>& allowed,
                                         bool in_time = false);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -7,7 +7,7 @@
 #include "studies/files/shown_units.h"
 #include "studies/measurements/curve_rows.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 namespace {
 
@@ -207,4 +207,4 @@ std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::Course& c
   return rows;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

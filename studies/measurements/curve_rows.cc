@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 namespace {
 
@@ -253,4 +253,4 @@ TimedCurve curve_in_time(const std::vector<CurveRow>& rows, const Abscissa& absc
   return result;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -8,7 +8,7 @@
 #include "calibration/statistics/curve.h"
 #include "studies/measurements/curve_text.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 /// One row, SI.
 struct CurveRow {
@@ -62,4 +62,4 @@ struct TimedCurve {
 TimedCurve curve_in_time(const std::vector<CurveRow>& rows, const Abscissa& abscissa,
                          FileProblems& problems, std::vector<std::string>& notes);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -4,10 +4,10 @@
 
 #include <set>
 
-#include "studies/config/units.h"
+#include "studies/config/text/units.h"
 #include "studies/measurements/material_test_table.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::vector<CurveSource> curve_sources(const fs::path& entry) {
   return sources;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

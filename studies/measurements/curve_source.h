@@ -10,7 +10,7 @@
 
 #include "studies/measurements/text_table.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 /// A column of a file, as a description names it.
 struct ColumnWish {
@@ -49,4 +49,4 @@ struct CurveSource {
 /// file. Throws InvalidInput naming file, line, key, value, rule and remedy.
 std::vector<CurveSource> curve_sources(const std::filesystem::path& entry);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <utility>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 namespace fs = std::filesystem;
 using std::string_view;
@@ -257,4 +257,4 @@ std::optional<std::string> plain_number(string_view cell, NumberStyle style) {
   return result;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "studies/config/loader.h"
-#include "studies/config/trimmed.h"
+#include "studies/config/text/trimmed.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 /// The first ten problems of a file, and how many more there are.
 class FileProblems {
@@ -76,4 +76,4 @@ inline constexpr std::array<NumberStyle, 7> number_styles = {
 /// "1.234,5" as "1234.5"; none for what is no number in this style.
 std::optional<std::string> plain_number(std::string_view cell, NumberStyle style);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

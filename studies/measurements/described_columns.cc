@@ -6,7 +6,7 @@
 
 #include "studies/measurements/text_table.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 DescribedColumns::DescribedColumns(std::vector<std::string> columns)
     : columns_(std::move(columns)) {}
@@ -62,4 +62,4 @@ void DescribedColumns::refuse(FileProblems& problems, const std::string& remedy)
                twice_ ? "give its number" : remedy);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -9,16 +9,16 @@
 #include <set>
 #include <utility>
 
+#include "calibration/material_tests/strain_grid.h"
 #include "meshes/base/errors.h"
 #include "meshes/base/text_file.h"
 #include "meshes/tables/csv_table.h"
 #include "studies/files/json_entry.h"
 #include "studies/jobs/digest.h"
 #include "studies/measurements/material_test_table.h"
-#include "studies/measurements/strain_grid.h"
 #include "studies/measurements/timed_test.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 namespace {
 
@@ -55,8 +55,8 @@ class TestReader {
   std::array<std::size_t, 2> chosen_rows(const fs::path& path, std::size_t rows) const;
   void read_slow(const std::vector<fs::path>& paths);
   void read_in_time(const fs::path& path);
-  StrainCurve curve_of(const fs::path& path);
-  void convert(const StrainCurve& curve);
+  calibration::StrainCurve curve_of(const fs::path& path);
+  void convert(const calibration::StrainCurve& curve);
   void keep_known_compression();
   void read_published();
 
@@ -142,15 +142,15 @@ std::array<std::size_t, 2> TestReader::chosen_rows(const fs::path& path, std::si
   return {std::size_t((*chosen)[0]) - 1, std::size_t((*chosen)[1])};
 }
 
-StrainCurve TestReader::curve_of(const fs::path& path) {
+calibration::StrainCurve TestReader::curve_of(const fs::path& path) {
   const meshes::CsvTable table = table_of(path);
-  StrainCurve curve{
+  calibration::StrainCurve curve{
       column_numbers(table, strain_.column), column_numbers(table, stress_.column), {}};
   if (sigma_) curve.sigma = column_numbers(table, sigma_->column);
   const auto [first, end] = chosen_rows(path, curve.strain.size());
   curve.keep(first, end);
   const std::size_t all = curve.strain.size();
-  const CurveCleaning removed = clean(curve, test_.pair("range"));
+  const calibration::CurveCleaning removed = clean(curve, test_.pair("range"));
   if (curve.strain.size() < 2)
     test_.refuse("path", path.filename().string(), "fewer than two points are left",
                  "look at rows, range and the columns");
@@ -167,7 +167,7 @@ StrainCurve TestReader::curve_of(const fs::path& path) {
 }
 
 /// To stretch, shear or J, increasing.
-void TestReader::convert(const StrainCurve& curve) {
+void TestReader::convert(const calibration::StrainCurve& curve) {
   struct Point {
     double deformation, stress, sigma;
   };
@@ -283,7 +283,7 @@ void TestReader::read() {
 }
 
 void TestReader::read_slow(const std::vector<fs::path>& paths) {
-  std::vector<StrainCurve> curves;
+  std::vector<calibration::StrainCurve> curves;
   for (const fs::path& path : paths) curves.push_back(curve_of(path));
   const bool many = curves.size() > 1 || test_.has("points") ||
                     curves.front().strain.size() > std::size_t(usual_points);
@@ -337,4 +337,4 @@ MaterialTestFile read_material_tests(const fs::path& file) {
   return result;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -8,7 +8,7 @@
 
 #include "calibration/material_tests/material_test.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 /// A cylinder between plates.
 struct Plates {
@@ -58,4 +58,4 @@ struct MaterialTestFile {
 /// and remedy.
 MaterialTestFile read_material_tests(const std::filesystem::path& file);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -10,10 +10,10 @@
 #include "calibration/files/toml_depth.h"
 #include "meshes/base/errors.h"
 #include "meshes/base/text_file.h"
-#include "studies/config/units.h"
+#include "studies/config/text/units.h"
 #include "studies/config/value_reader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 namespace fs = std::filesystem;
 using calibration::StressMeasure;
@@ -351,4 +351,4 @@ std::vector<double> column_numbers(const meshes::CsvTable& table, const std::str
   return table.numbers(table.names[place - 1]);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -17,7 +17,7 @@
 #include "meshes/tables/csv_table.h"
 #include "studies/measurements/text_table.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 /// One table of the file, with what it has in common with others; says where things stand. All
 /// refusals are InvalidInput with file, line and key.
@@ -138,4 +138,4 @@ meshes::CsvTable described_table(const std::filesystem::path& file, TableLayout 
 /// Of such a table, the column of that name or number.
 std::vector<double> column_numbers(const meshes::CsvTable& table, const std::string& column);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "meshes/base/files.h"
-#include "studies/config/units.h"
+#include "studies/config/text/units.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 namespace {
 
@@ -385,4 +385,4 @@ TextTables tables_in(string_view text, const TableLayout& layout, const ChooseCo
   return TableFinder(text, layout, choose, problems).found();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -10,7 +10,7 @@
 
 #include "studies/measurements/curve_text.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 /// What is known of a file's layout; the rest is found.
 struct TableLayout {
@@ -84,4 +84,4 @@ TableTitle title_of(std::string_view cell);
 /// A time as a number of seconds, as h:min:s or min:s, or as a date and a time of day [s].
 std::optional<double> time_in(std::string_view cell);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

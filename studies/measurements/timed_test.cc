@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "meshes/base/errors.h"
-#include "studies/config/units.h"
+#include "studies/config/text/units.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 using calibration::MaterialTest;
 using calibration::StrainPath;
@@ -205,4 +205,4 @@ void put_in_time(const TestTable& description, const std::filesystem::path& file
   }
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

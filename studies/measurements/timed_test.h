@@ -9,7 +9,7 @@
 #include "meshes/tables/csv_table.h"
 #include "studies/measurements/material_test_table.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline measurements {
 
 /// Rows of a table, as they stand in it.
 struct TimedRows {
@@ -37,4 +37,4 @@ void put_in_time(const TestTable& description, const std::filesystem::path& file
                  std::size_t points, calibration::MaterialTest& test,
                  std::vector<std::string>& notes);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline measurements

@@ -20,7 +20,7 @@
 #include "studies/jobs/digest.h"
 #include "studies/jobs/interrupt.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -155,4 +155,4 @@ void choose_controller(const LoadedConfig& loaded, lattice::PressSetup& setup) {
   }
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -4,7 +4,7 @@
 #include "lattice/press/press_setup.h"
 #include "studies/config/loader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// Sets make_controller, controller_identity and follows_path of `setup`, which is otherwise
 /// complete, as controller.type says; pid leaves them as they are. Force control has no depth to
@@ -17,4 +17,4 @@ void choose_controller(const LoadedConfig& loaded, lattice::PressSetup& setup);
 /// is not known to the program.
 bool repeatable(const lattice::PressSetup& setup);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

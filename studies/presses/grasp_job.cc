@@ -5,13 +5,14 @@
 
 #include "lattice/grasp/grasp_fields.h"
 #include "lattice/press/setup_fields.h"
+#include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
 #include "source_hash.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/presses/press_record.h"
 #include "studies/presses/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -156,4 +157,4 @@ Job grasp_job(const lattice::GraspSetup& setup) {
   return job;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

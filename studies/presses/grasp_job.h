@@ -5,7 +5,7 @@
 #include "studies/config/loader.h"
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// The grasp that `loaded` describes; of [press] it takes contact, friction and clearance. Throws
 /// ConfigError for every rule it breaks.
@@ -14,4 +14,4 @@ lattice::GraspSetup grasp_setup(const LoadedConfig& loaded);
 /// Files: grasp.csv (rewritten twice a second while it runs), summary.json.
 Job grasp_job(const lattice::GraspSetup& setup);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -6,13 +6,14 @@
 #include "lattice/press/static_press.h"
 #include "lattice/statics/mode_motion.h"
 #include "lattice/statics/vibration_modes.h"
+#include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
 #include "source_hash.h"
 #include "studies/files/run_tables.h"
 #include "studies/jobs/json_file.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -60,4 +61,4 @@ Job modes_job(const lattice::PressSetup& setup, int count) {
   return job;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 Pace slowest_pace(const lattice::PressOutcome& outcome, double window) {
   const auto& trace = outcome.trace;
@@ -37,4 +37,4 @@ double worst_force_error(const meshes::PressResponse& response,
   return worst;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

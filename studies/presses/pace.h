@@ -4,7 +4,7 @@
 #include "lattice/press/press.h"
 #include "meshes/press/press_response.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// Simulated over elapsed time; NaN where it cannot be told.
 struct Pace {
@@ -24,4 +24,4 @@ Pace slowest_pace(const lattice::PressOutcome& outcome, double window);
 double worst_force_error(const meshes::PressResponse& response,
                          const meshes::PressResponse& reference, double from, double to);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -7,7 +7,7 @@
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/press_task.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::vector<PaceCandidate> pace_candidates(const PressSetup& asked, bool any_int
   return candidates;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -6,7 +6,7 @@
 
 #include "lattice/press/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// A press that may be taken, as coarse or fine as it is.
 struct PaceCandidate {
@@ -67,4 +67,4 @@ double pace_judged_from(const lattice::PressSetup& setup);
 std::vector<PaceCandidate> pace_candidates(const lattice::PressSetup& asked, bool any_integrator,
                                            int cores);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -14,7 +14,7 @@
 #include "studies/presses/pace.h"
 #include "studies/presses/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -27,9 +27,9 @@ constexpr double longest_trial = 0.3;  // of simulated time [s]
 constexpr int most_trials = 10;
 
 Moment moment_in(double seconds) {
-  using Clock = std::chrono::steady_clock;
-  return Clock::now() +
-         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  using SteadyClock = std::chrono::steady_clock;
+  return SteadyClock::now() +
+         std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(seconds));
 }
 
 double seconds_until(Moment moment) {
@@ -146,4 +146,4 @@ PaceSearch search_pace_here(const LoadedConfig& asked, int cores) {
       calibration::rounded(search.taken().spacing), search.choice.factor, pace_margin));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

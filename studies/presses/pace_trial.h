@@ -8,7 +8,7 @@
 #include "studies/config/loader.h"
 #include "studies/presses/pace_choice.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// Real-time factor in the slowest 10 ms from the first touch on, of the best of up to ten presses
 /// of `setup` that begin within half of `seconds` of wall time (others at work slow single ones);
@@ -47,4 +47,4 @@ std::vector<std::string> settings_of(const PaceCandidate& taken, const LoadedCon
 /// where not even the coarsest lattice keeps up, and as measured_factor.
 PaceSearch search_pace_here(const LoadedConfig& asked, int cores);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -22,7 +22,7 @@
 #include "studies/presses/static_press_job.h"
 #include "studies/presses/tracking.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -177,4 +177,4 @@ Job press_job(const lattice::PressSetup& setup, int movie_pictures) {
   return job;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

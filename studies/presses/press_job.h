@@ -4,7 +4,7 @@
 #include "lattice/press/press_setup.h"
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// A lattice press. Static: see static_press_job.h. Otherwise files: response.csv, trace.csv
 /// (rewritten twice a second while it runs, so that a killed run stays readable), boundary.csv,
@@ -13,4 +13,4 @@ namespace fingertip::studies {
 /// none.
 Job press_job(const lattice::PressSetup& setup, int movie_pictures = 0);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -10,7 +10,7 @@
 #include "meshes/press/press_motion.h"
 #include "studies/jobs/progress.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::optional<std::string> duration_note(const PressSetup& setup, int threads) {
       percent(lattice::worst_of(best.deviations, from).relative), millimetres(from));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -7,7 +7,7 @@
 
 #include "lattice/press/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// That a law of large strain has no say where the lattice knows E and G alone.
 std::vector<std::string> law_notes(const lattice::PressSetup& setup);
@@ -22,4 +22,4 @@ std::string integrator_note(const lattice::PressSetup& setup);
 /// scaled masses would be five times as fast; with what they would change of the force.
 std::optional<std::string> duration_note(const lattice::PressSetup& setup, int threads);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

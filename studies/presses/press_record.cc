@@ -4,10 +4,11 @@
 
 #include "lattice/press/press_task.h"
 #include "lattice/press/setup_fields.h"
+#include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
 #include "studies/jobs/json_file.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 using meshes::json_of;
 using nlohmann::ordered_json;
@@ -102,4 +103,4 @@ void set_press_status(const fs::path& folder, const std::string& status) {
   write_json(summary, folder / "summary.json");
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

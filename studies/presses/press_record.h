@@ -10,7 +10,7 @@
 #include "lattice/press/press_setup.h"
 #include "studies/files/press_summary.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// Takes entries out that have no effect.
 void drop(nlohmann::ordered_json& inputs, std::initializer_list<const char*> idle);
@@ -39,4 +39,4 @@ ModuliEntry moduli_entry(const calibration::ElasticModuli& moduli);
 /// Writes `status` into the folder's summary.json, if there is one.
 void set_press_status(const std::filesystem::path& folder, const std::string& status);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

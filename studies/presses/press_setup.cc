@@ -12,12 +12,12 @@
 #include "meshes/base/files.h"
 #include "meshes/cells/cubic_grid.h"
 #include "studies/config/finger_defaults.h"
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_table.h"
 #include "studies/config/law_card_keys.h"
-#include "studies/config/units.h"
+#include "studies/config/text/units.h"
 #include "studies/presses/controller_choice.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -317,4 +317,4 @@ void check_validation(const LoadedConfig& loaded) {
   if (!broken.empty()) throw loaded.locate(broken);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -5,7 +5,7 @@
 #include "lattice/press/press_setup.h"
 #include "studies/config/loader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// What a lattice is used for: how it is pressed does not matter to natural frequencies. Where the
 /// continuum answers none is built, and a spacing that nobody gave is not checked.
@@ -51,4 +51,4 @@ void check_all(const LoadedConfig& loaded);
 /// What `validate` needs beyond check_all: a press that both can do. Throws ConfigError.
 void check_validation(const LoadedConfig& loaded);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

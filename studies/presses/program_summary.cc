@@ -10,7 +10,7 @@
 
 #include "meshes/press/press_motion.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -126,4 +126,4 @@ double work_along(const meshes::PressResponse& response) {
   return work;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -7,7 +7,7 @@
 #include "meshes/press/press_protocol.h"
 #include "studies/files/press_summary.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// Of a press in time, its forces from the rows of its trace around the moments; empty without a
 /// program.
@@ -24,4 +24,4 @@ std::vector<StageEntry> stage_entries(const meshes::PressProtocol& protocol,
 /// program that ends where nothing touches, the area of its loop.
 double work_along(const meshes::PressResponse& response);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -1,12 +1,13 @@
 #include "studies/presses/reference_job.h"
 
+#include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
 #include "source_hash.h"
 #include "studies/files/places.h"
 #include "studies/jobs/fem_process.h"
 #include "studies/presses/press_record.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -66,4 +67,4 @@ Job verification_job() {
   return job;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -4,7 +4,7 @@
 #include "fem_reference/job/job.h"
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// The continuum by fingertip-fem. Files: job.json, summary.json, convergence.csv, tip.msh,
 /// section.csv, pressure.csv, fields/, and by analysis response.csv (static press), also
@@ -16,4 +16,4 @@ Job reference_job(const fem_reference::ReferenceJob& reference);
 /// verification.json.
 Job verification_job();
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -12,7 +12,7 @@
 #include "studies/presses/press_record.h"
 #include "studies/presses/program_summary.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -78,4 +78,4 @@ Job static_press_job(const lattice::PressSetup& setup) {
   return job;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 namespace {
 
@@ -49,4 +49,4 @@ Tracking measure_tracking(const std::vector<lattice::TraceRow>& trace, double fi
   return tracking;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

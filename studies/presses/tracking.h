@@ -6,7 +6,7 @@
 
 #include "lattice/press/press.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses {
 
 /// Largest deviations over a trace, of speed while the controller does not control the contact
 /// force instead; NaN where the trace has no row to judge.
@@ -32,4 +32,4 @@ inline constexpr double held_time = 0.100;      ///< [s]
 /// `first_touch` [s]; NaN when the plane was not reached.
 Tracking measure_tracking(const std::vector<lattice::TraceRow>& trace, double first_touch);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses

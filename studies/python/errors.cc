@@ -11,7 +11,7 @@
 #include "studies/config/loader.h"
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline python {
 
 namespace py = pybind11;
 
@@ -68,4 +68,4 @@ void translate_errors() {
   });
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline python

@@ -12,7 +12,7 @@
 #include "lattice/press/press_task.h"
 #include "studies/presses/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline python {
 
 namespace py = pybind11;
 
@@ -200,4 +200,4 @@ void add_finger(py::module_& module) {
       .def_property_readonly("time_step", &Finger::time_step, "Of the integration [s].");
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline python

@@ -3,9 +3,9 @@
 
 #include <pybind11/pybind11.h>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline python {
 
 /// Adds Finger, Measurement, Contact, Wrench and Target.
 void add_finger(pybind11::module_& module);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline python

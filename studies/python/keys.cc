@@ -2,9 +2,9 @@
 
 #include <pybind11/stl.h>
 
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_table.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline python {
 
 namespace py = pybind11;
 
@@ -70,4 +70,4 @@ void add_keys(py::module_& module) {
       "The sections of the configuration and what they are about.");
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline python

@@ -3,9 +3,9 @@
 
 #include <pybind11/pybind11.h>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline python {
 
 /// Adds keys() and sections().
 void add_keys(pybind11::module_& module);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline python

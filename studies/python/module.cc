@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "meshes/base/blas.h"
-#include "studies/cli/verbs.h"
+#include "studies/cli/verbs/verbs.h"
 #include "studies/jobs/interrupt.h"
 #include "studies/presses/press_setup.h"
 #include "studies/python/errors.h"
@@ -16,7 +16,7 @@
 #include "studies/python/keys.h"
 #include "studies/python/tables.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline python {
 
 namespace py = pybind11;
 
@@ -76,4 +76,4 @@ PYBIND11_MODULE(_core, module) {
   module.def("check", check, py::arg("config"), py::arg("sets"));
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline python

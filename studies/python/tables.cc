@@ -11,7 +11,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/tables/table_rows.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline python {
 
 namespace py = pybind11;
 
@@ -77,4 +77,4 @@ void add_tables(py::module_& module) {
   add_table<lattice::TraceRow>(module, "TraceTable", "The rows of trace.csv.", read_trace);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline python

@@ -6,16 +6,18 @@
 #include <ostream>
 
 #include "meshes/tables/table_rows.h"
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/continuum/continuum_chapters.h"
+#include "studies/report/chapters/models/model_chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 #include "studies/report/report.h"
+#include "studies/report/report_parts.h"
 #include "studies/report/results/comparison_data.h"
 #include "studies/report/results/moving_press.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::report {
 namespace {
 
-using namespace reporting;
 namespace fs = std::filesystem;
 
 void write_csv(const Comparison& comparison, const fs::path& file) {
@@ -369,4 +371,4 @@ ComparisonResult write_comparison(const std::vector<fs::path>& runs, const fs::p
   return {screen_text(comparison), reader.damage()};
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::report

@@ -11,10 +11,10 @@ endforeach()
 file(WRITE ${OUTPUT}
   "#include \"studies/report/page/templates.h\"\n\n"
   "#include <map>\n#include <stdexcept>\n\n"
-  "namespace fingertip::studies::reporting {\n\n"
+  "namespace fingertip::studies::report::inline page {\n\n"
   "std::string_view template_text(const std::string& name) {\n"
   "  static const std::map<std::string, std::string_view> texts = {\n${entries}  };\n"
   "  const auto found = texts.find(name);\n"
   "  if (found == texts.end()) throw std::logic_error(\"there is no template \" + name);\n"
   "  return found->second;\n}\n\n"
-  "}  // namespace fingertip::studies::reporting\n")
+  "}  // namespace fingertip::studies::report::inline page\n")

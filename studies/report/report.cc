@@ -5,16 +5,18 @@
 #include <cmath>
 
 #include "studies/report/chapters/bench/bench_page.h"
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/continuum/continuum_chapters.h"
 #include "studies/report/chapters/fit/calibration_chapters.h"
+#include "studies/report/chapters/fit/law_chapter.h"
+#include "studies/report/chapters/fit/materials_chapter.h"
+#include "studies/report/chapters/models/model_chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
+#include "studies/report/report_parts.h"
 #include "studies/report/results/grasp_run.h"
-#include "studies/report/results/law_chapter.h"
-#include "studies/report/results/materials_chapter.h"
 #include "studies/report/results/moving_press.h"
 
-namespace fingertip::studies {
-namespace reporting {
+namespace fingertip::studies::report {
 
 std::vector<NotRun> missing_parts(const RunData& run) {
   std::vector<NotRun> missing;
@@ -340,10 +342,7 @@ std::vector<Damaged> damaged_parts(const FolderReader& reader) {
   return parts;
 }
 
-}  // namespace reporting
-
 Damages write_report(const std::filesystem::path& run_folder, std::optional<UnitSystem> units) {
-  using namespace reporting;
   FolderReader reader;
   const auto own = [&] {
     return unit_system(text_if_any(reader.json(run_folder / "manifest.json"), "units"));
@@ -361,4 +360,4 @@ Damages write_report(const std::filesystem::path& run_folder, std::optional<Unit
   return reader.damage();
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::report

@@ -9,7 +9,7 @@
 #include "meshes/base/errors.h"
 #include "studies/files/shown_units.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::report {
 
 /// What was wrong with files of run folders; empty when nothing was.
 using Damages = std::vector<meshes::Violation>;
@@ -53,4 +53,4 @@ ComparisonResult write_comparison(const std::vector<std::filesystem::path>& runs
 /// Throws meshes::InvalidInput like write_report, and for damaged files.
 std::string verdict_text(const std::filesystem::path& run_folder);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::report

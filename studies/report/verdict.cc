@@ -6,15 +6,18 @@
 #include <functional>
 #include <limits>
 
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/continuum/continuum_chapters.h"
 #include "studies/report/chapters/fit/calibration_chapters.h"
+#include "studies/report/chapters/fit/materials_chapter.h"
+#include "studies/report/chapters/models/model_chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 #include "studies/report/report.h"
+#include "studies/report/report_parts.h"
 #include "studies/report/results/grasp_run.h"
-#include "studies/report/results/materials_chapter.h"
 #include "studies/report/results/moving_press.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report {
 namespace {
 
 double deviation(double value, double target) {
@@ -266,21 +269,16 @@ Chapter verdict_chapter(const RunData& run) {
   return written(std::move(chapter));
 }
 
-}  // namespace fingertip::studies::reporting
-
-namespace fingertip::studies {
-
 namespace {
 
-std::string moving_text(const std::vector<reporting::MovingPress>& presses) {
-  return reporting::compares_integrators(presses) ? reporting::integrators_text(presses)
-                                                  : reporting::control_text(presses);
+std::string moving_text(const std::vector<MovingPress>& presses) {
+  return compares_integrators(presses) ? integrators_text(presses)
+                                               : control_text(presses);
 }
 
 }  // namespace
 
 std::string verdict_text(const std::filesystem::path& run_folder) {
-  using namespace reporting;
   FolderReader reader;
   const RunData run = read_run(run_folder, reader);
   const CalibrationData calibration = read_calibration(run, reader);
@@ -300,4 +298,4 @@ std::string verdict_text(const std::filesystem::path& run_folder) {
   return text;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::report

@@ -9,12 +9,12 @@
 #include <toml++/toml.h>
 
 #include "calibration/files/toml_depth.h"
-#include "studies/config/key_table.h"
-#include "studies/config/units.h"
+#include "studies/config/keys/key_table.h"
+#include "studies/config/text/units.h"
 #include "studies/config/value_reader.h"
 #include "studies/jobs/digest.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline sweep {
 
 namespace {
 
@@ -232,4 +232,4 @@ std::string settings_text(const SweepPoint& point) {
   return text;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline sweep

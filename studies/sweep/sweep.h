@@ -8,7 +8,7 @@
 
 #include "studies/config/loader.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline sweep {
 
 /// One combination of values. Its identity is a digest of the verb, what the whole sweep was given
 /// and its own settings, in whatever order they were written; threads do not count.
@@ -48,4 +48,4 @@ LoadedConfig config_of(const Sweep& sweep, const SweepPoint& point);
 /// "lattice.spacing=tip_radius/6; press.speed=\"1 cm/s\""
 std::string settings_text(const SweepPoint& point);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline sweep

@@ -21,7 +21,7 @@
 #include "studies/presses/press_setup.h"
 #include "studies/presses/reference_job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline sweep {
 
 namespace {
 
@@ -152,4 +152,4 @@ std::vector<PointResult> run_points(const Sweep& sweep, const std::vector<Planne
   return results;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline sweep

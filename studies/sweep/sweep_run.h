@@ -10,7 +10,7 @@
 #include "studies/jobs/job.h"
 #include "studies/sweep/sweep.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline sweep {
 
 inline constexpr const char* sweep_file = "sweep.json";
 
@@ -45,4 +45,4 @@ std::vector<PointResult> run_points(const Sweep& sweep, const std::vector<Planne
                                     const std::vector<std::string>& command_line,
                                     const std::function<void(const PointResult&)>& tell);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline sweep

@@ -19,7 +19,7 @@
 #include "studies/jobs/result_files.h"
 #include "studies/sweep/sweep_run.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline sweep {
 
 namespace {
 
@@ -230,4 +230,4 @@ SweepCensus collect(const fs::path& folder) {
   return census;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline sweep

@@ -8,7 +8,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline sweep {
 
 struct SweepCensus {
   std::size_t points = 0;
@@ -30,4 +30,4 @@ struct SweepCensus {
 /// a sweep, InvalidInput when sweep.json is damaged.
 SweepCensus collect(const std::filesystem::path& folder);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline sweep

@@ -30,9 +30,9 @@ std::vector<Finding> check_include_arrows(const std::filesystem::path& source);
 /// finding for all units that reach each other.
 std::vector<Finding> check_circles(const std::filesystem::path& source);
 
-/// Every file opens the namespace of its folder (`lattice/model`: fingertip::lattice::model) and no
-/// other of the project; a program's main and headers for C need none. One finding for all files of
-/// a room that open the same other namespace.
+/// Every file opens the namespace of its folder (`lattice/model`: fingertip::lattice::model, where
+/// a room's may be inline) and no other of the project; a program's main and headers for C need
+/// none. One finding for all files of a room that open the same other namespace.
 std::vector<Finding> check_namespaces(const std::filesystem::path& source);
 
 /// The table's arrows between the libraries that the rooms' CMakeLists.txt link; and the gmsh
@@ -46,13 +46,5 @@ std::vector<Finding> check_packages(const std::filesystem::path& source);
 
 /// Every header starts with a /// comment and has #pragma once; no source is longer than 600 lines.
 std::vector<Finding> check_form(const std::filesystem::path& source);
-
-/// Lines "Rule file: what" of a text that lists the offences of today, without its comments.
-std::vector<std::string> read_offences(const std::filesystem::path& file);
-
-/// What differs from the list: findings of `rule` that it lacks, and its lines about `rule` that
-/// are no finding any more.
-std::vector<std::string> differences(const std::string& rule, const std::vector<Finding>& findings,
-                                     const std::vector<std::string>& listed);
 
 }  // namespace architecture

@@ -12,22 +12,22 @@
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
-namespace reporting = studies::reporting;
+namespace report = studies::report;
 
 namespace {
 
 /// Two panels, the second one logarithmic, with two curves each; points are drawn.
-reporting::Figure two_panels() {
-  reporting::Figure figure;
+report::Figure two_panels() {
+  report::Figure figure;
   figure.name = "two";
   figure.columns = 2;
   for (const int log : {0, 10}) {
-    reporting::Panel panel;
+    report::Panel panel;
     panel.x_label = "indentation [mm]";
     panel.y_label = "force [mN]";
     panel.log_x = panel.log_y = log;
     for (const double factor : {1.0, 0.5}) {
-      reporting::Series series;
+      report::Series series;
       series.label = factor == 1.0 ? "lattice" : "</script> continuum";
       series.x = {1.0, 2.0, 3.0, 4.0};
       for (const double x : series.x) series.y.push_back(factor * x * x);
@@ -132,11 +132,11 @@ TEST(ReportPage, ThePointerTellsValuesAndButtonsSwitchSeriesOff) {
   if (browser::chromium_program().empty())
     GTEST_SKIP() << "Chromium is not installed (./fingertip test installs it)";
   const TemporaryFolder folder;
-  reporting::Page page;
+  report::Page page;
   page.title = "A page";
   page.chapters.push_back(
-      {"only", "Only chapter", {reporting::FigureBlock{two_panels(), "Two panels", "Caption."}}});
-  reporting::publish(page, folder.path(), "report.html");
+      {"only", "Only chapter", {report::FigureBlock{two_panels(), "Two panels", "Caption."}}});
+  report::publish(page, folder.path(), "report.html");
   const nlohmann::json told = answers_of(folder.path(), pointing_script);
   ASSERT_EQ(told.size(), 6U) << told;
   EXPECT_EQ(told[0], "lattice\nindentation [mm]: 3\nforce [mN]: 9");
@@ -152,14 +152,14 @@ TEST(ReportPage, ShapesTurnTogetherAndTurnBack) {
   if (browser::chromium_program().empty())
     GTEST_SKIP() << "Chromium is not installed (./fingertip test installs it)";
   const TemporaryFolder folder;
-  reporting::Page page;
+  report::Page page;
   page.title = "A page";
-  const reporting::Figure figure = reporting::modulus_surface_figure(
-      "moduli", {{"cubic", reporting::cubic_material(4e3, 0.3, 3e3)},
-                 {"</script> ball", reporting::cubic_material(4e3, 0.3, 4e3 / 2.6)}});
+  const report::Figure figure = report::modulus_surface_figure(
+      "moduli", {{"cubic", report::cubic_material(4e3, 0.3, 3e3)},
+                 {"</script> ball", report::cubic_material(4e3, 0.3, 4e3 / 2.6)}});
   page.chapters.push_back(
-      {"only", "Only chapter", {reporting::FigureBlock{figure, "Moduli", "Caption."}}});
-  reporting::publish(page, folder.path(), "report.html");
+      {"only", "Only chapter", {report::FigureBlock{figure, "Moduli", "Caption."}}});
+  report::publish(page, folder.path(), "report.html");
   const nlohmann::json told = answers_of(folder.path(), turning_script);
   ASSERT_EQ(told.size(), 12U) << told;
   EXPECT_EQ(

@@ -10,7 +10,7 @@
 #include "studies/control/c_structs.h"
 #include "studies/control/local_socket.h"
 #include "studies/control/messages.h"
-#include "studies/exchange/lammps_program.h"
+#include "studies/exchange/lammps/lammps_program.h"
 #include "studies/live/access.h"
 #include "studies/live/protocol.h"
 #include "studies/live/reference.h"

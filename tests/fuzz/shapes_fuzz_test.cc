@@ -6,8 +6,8 @@
 
 #include "campaign.h"
 #include "meshes/base/errors.h"
-#include "studies/config/profile_file.h"
-#include "studies/config/solid_file.h"
+#include "studies/config/shapes/profile_file.h"
+#include "studies/config/shapes/solid_file.h"
 #include "tests/fingers.h"
 #include "tests/stl_text.h"
 #include "tests/temporary_folder.h"

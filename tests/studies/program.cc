@@ -1,4 +1,4 @@
-#include "program.h"
+#include "tests/studies/program.h"
 
 #include <fcntl.h>
 #include <signal.h>

@@ -2,7 +2,7 @@
 
 #include "lattice/forces/energy.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 using meshes::Vector3;
 
@@ -76,4 +76,4 @@ double EnergyBalance::drift(const EnergyInstant& from, const EnergyInstant& to, 
          integral(from.dissipation, to.dissipation) - work;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

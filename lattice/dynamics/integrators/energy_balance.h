@@ -3,7 +3,7 @@
 
 #include "lattice/dynamics/integrators/stepper.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 /// Energies of a finger at one moment, and the powers that change them.
 struct EnergyInstant {
@@ -40,4 +40,4 @@ class EnergyBalance {
   State still_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

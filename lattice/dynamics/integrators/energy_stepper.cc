@@ -6,7 +6,7 @@
 
 #include "lattice/dynamics/integrators/euler_stepper.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 namespace {
 
@@ -71,4 +71,4 @@ std::string EnergyStepper::explanation() const {
   return text.str();
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

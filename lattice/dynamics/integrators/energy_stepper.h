@@ -4,7 +4,7 @@
 #include "lattice/dynamics/integrators/energy_balance.h"
 #include "lattice/dynamics/integrators/stepper.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 /// Symplectic Euler with the largest steps, up to the stable one, over which the energy balance
 /// |dE_kin + dE_el + D - W_ext| (energy_balance.h) closes within a bound (A. Joukhadar, Adaptive
@@ -36,4 +36,4 @@ class EnergyStepper : public Stepper {
   EnergyInstant start_, end_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

@@ -1,6 +1,6 @@
 #include "lattice/dynamics/integrators/euler_stepper.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 void advance(Finger& finger, const Drive& drive) {
   if (const Wrench* wrench = std::get_if<Wrench>(&drive)) {
@@ -42,4 +42,4 @@ void EulerStepper::step(const Drive& drive, double until) {
   accept(finger_->step(), true);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

@@ -3,7 +3,7 @@
 
 #include "lattice/dynamics/integrators/stepper.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 /// Steps that divide the span evenly and keep to the StepController's limit, chosen at the span's
 /// start and whenever the cells have grown too stiff for the present step.
@@ -30,4 +30,4 @@ bool outgrown(const Finger& finger, const StepController& steps);
 /// divide.
 double safe_step(const Finger& finger, const StepController& steps, double span);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

@@ -5,7 +5,7 @@
 #include "lattice/dynamics/integrators/mass_scaled_stepper.h"
 #include "lattice/dynamics/integrators/runge_kutta.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 std::unique_ptr<Stepper> make_stepper(const StepperSettings& settings, Finger& finger,
                                       StepController& steps) {
@@ -20,4 +20,4 @@ std::unique_ptr<Stepper> make_stepper(const StepperSettings& settings, Finger& f
   }
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

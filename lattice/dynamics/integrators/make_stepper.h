@@ -7,7 +7,7 @@
 #include "lattice/dynamics/integrator.h"
 #include "lattice/dynamics/integrators/stepper.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 /// What a stepper has to keep to.
 struct StepperSettings {
@@ -22,4 +22,4 @@ struct StepperSettings {
 std::unique_ptr<Stepper> make_stepper(const StepperSettings& settings, Finger& finger,
                                       StepController& steps);
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

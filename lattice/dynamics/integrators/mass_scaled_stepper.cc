@@ -4,7 +4,7 @@
 
 #include "lattice/dynamics/integrators/euler_stepper.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 namespace {
 
@@ -67,4 +67,4 @@ void MassScaledStepper::step(const Drive& drive, double until) {
   accept(finger_->step(), true);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

@@ -6,7 +6,7 @@
 
 #include "lattice/dynamics/integrators/stepper.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 /// Steps of `run.time_step`, or a quarter of a millisecond, with masses scaled to them
 /// (scaling/mass_scaling.h), shorter where the change of a cell's volume asks for it; within a span
@@ -42,4 +42,4 @@ class MassScaledStepper : public Stepper {
   double strained_ = 0.0;  ///< strain or turn of a cell
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

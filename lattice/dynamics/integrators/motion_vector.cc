@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 using meshes::Vector3;
 
@@ -107,4 +107,4 @@ void MotionVector::write_scales(const RodState& rod, double frequency, double* s
   std::fill_n(scales + impulse_, impulse_entries, 1e30);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

@@ -8,7 +8,7 @@
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 /// Displacements and velocities of the model's blocks, the rod's centre, orientation (x, y, z, w),
 /// momentum and angular momentum, and the impulses of the plane (force, moment) and of the bond on
@@ -53,4 +53,4 @@ class MotionVector {
   std::size_t velocity_, rod_, impulse_;  ///< where they start
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

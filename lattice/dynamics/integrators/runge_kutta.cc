@@ -13,7 +13,7 @@
 #include "lattice/dynamics/spectrum.h"
 #include "lattice/forces/energy.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 using meshes::Vector3;
 
@@ -245,4 +245,4 @@ std::string RungeKutta::explanation() const {
   return text.str();
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

@@ -3,7 +3,7 @@
 
 #include "lattice/dynamics/integrators/stepper.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 /// The pair of Dormand and Prince, order 5 with an estimate of order 4 (J. Comput. Appl. Math. 6,
 /// 1980), by ERKStep of ARKODE (Reynolds et al., ACM TOMS 49, 2023), for
@@ -43,4 +43,4 @@ class RungeKutta : public Stepper {
   double tolerance_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 void Stepper::accept(double step, bool whole) {
   ++count_.accepted;
@@ -16,4 +16,4 @@ std::string Stepper::counted() const {
   return text.str();
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

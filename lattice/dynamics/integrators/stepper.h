@@ -10,7 +10,7 @@
 #include "lattice/dynamics/time_step.h"
 #include "meshes/base/errors.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline integrators {
 
 /// Where a prescribed rod is at a time [s].
 using Motion = std::function<RodMotion(double time)>;
@@ -63,4 +63,4 @@ class Stepper {
   StepCount count_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline integrators

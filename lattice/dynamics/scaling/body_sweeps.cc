@@ -5,7 +5,7 @@
 
 #include "lattice/dynamics/scaling/eight.h"
 
-namespace fingertip::lattice::sweeps {
+namespace fingertip::lattice::inline dynamics::inline scaling::sweeps {
 
 namespace {
 
@@ -174,4 +174,4 @@ const BodyLoops& body_loops_at() {
 }
 template const BodyLoops& body_loops_at<native_width>();
 
-}  // namespace fingertip::lattice::sweeps
+}  // namespace fingertip::lattice::inline dynamics::inline scaling::sweeps

@@ -7,7 +7,7 @@
 
 #include "lattice/dynamics/scaling/sweeps.h"
 
-namespace fingertip::lattice::sweeps {
+namespace fingertip::lattice::inline dynamics::inline scaling::sweeps {
 
 /// Fields by component; those that a loop does not name may be null.
 struct BodyArrays {
@@ -50,4 +50,4 @@ struct BodyLoops {
 template <int width>
 const BodyLoops& body_loops_at();
 
-}  // namespace fingertip::lattice::sweeps
+}  // namespace fingertip::lattice::inline dynamics::inline scaling::sweeps

@@ -6,7 +6,7 @@
 #include "lattice/dynamics/scaling/body_sweeps.h"
 #include "lattice/kernels/by_width.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 using meshes::Vector3;
 
@@ -139,4 +139,4 @@ CarriedRubber::Moved CarriedRubber::move(const Vector6& motion, const Restraint*
           sector.whole_on_grid(kept)};
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

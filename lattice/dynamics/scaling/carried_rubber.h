@@ -12,7 +12,7 @@
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 /// (force, moment about the origin) of a force [N] that acts at x [m].
 Vector6 acting_at(const meshes::Vector3& x, const meshes::Vector3& force);
@@ -54,4 +54,4 @@ class CarriedRubber {
   std::vector<Single> moves_;                  ///< per point: 1 at particles, else 0
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

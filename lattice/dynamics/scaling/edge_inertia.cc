@@ -7,7 +7,7 @@
 
 #include "lattice/kernels/by_width.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 namespace {
 
@@ -118,4 +118,4 @@ double EdgeInertiaRule::find(const State& state, double step, double allowance, 
   return sum;
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

@@ -10,7 +10,7 @@
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 using sweeps::Single;
 
@@ -54,4 +54,4 @@ class EdgeInertiaRule {
   std::vector<sweeps::EdgePack> packs_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

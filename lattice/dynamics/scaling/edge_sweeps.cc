@@ -4,7 +4,7 @@
 #include "lattice/dynamics/scaling/eight.h"
 #include "lattice/kernels/pack_algebra.h"
 
-namespace fingertip::lattice::sweeps {
+namespace fingertip::lattice::inline dynamics::inline scaling::sweeps {
 
 namespace {
 
@@ -109,4 +109,4 @@ const EdgeLoops& edge_loops_at() {
 }
 template const EdgeLoops& edge_loops_at<native_width>();
 
-}  // namespace fingertip::lattice::sweeps
+}  // namespace fingertip::lattice::inline dynamics::inline scaling::sweeps

@@ -8,7 +8,7 @@
 #include "lattice/dynamics/scaling/sweeps.h"
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice::sweeps {
+namespace fingertip::lattice::inline dynamics::inline scaling::sweeps {
 
 /// Of one cell's edges; nothing for cells that are not there.
 struct EdgeShares {
@@ -51,4 +51,4 @@ struct EdgeLoops {
 template <int width>
 const EdgeLoops& edge_loops_at();
 
-}  // namespace fingertip::lattice::sweeps
+}  // namespace fingertip::lattice::inline dynamics::inline scaling::sweeps

@@ -5,7 +5,7 @@
 
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice::sweeps {
+namespace fingertip::lattice::inline dynamics::inline scaling::sweeps {
 
 /// Its type differs between compilations, as in kernels/packs.h.
 using Eight = std::experimental::simd<float, std::experimental::simd_abi::deduce_t<float, lanes>>;
@@ -20,4 +20,4 @@ inline constexpr int native_width = int(std::experimental::native_simd<double>::
   from.copy_to(to, std::experimental::element_aligned);
 }
 
-}  // namespace fingertip::lattice::sweeps
+}  // namespace fingertip::lattice::inline dynamics::inline scaling::sweeps

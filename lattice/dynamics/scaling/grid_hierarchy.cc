@@ -5,7 +5,7 @@
 
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 namespace {
 
@@ -163,4 +163,4 @@ GridHierarchy::GridHierarchy(const LatticeModel& model) {
   }
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

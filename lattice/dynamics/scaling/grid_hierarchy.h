@@ -9,7 +9,7 @@
 #include "lattice/dynamics/scaling/sweeps.h"
 #include "lattice/model/model.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 /// One grid: its points, and how fields on it are passed on to the grid of twice the spacing, whose
 /// point i lies at 2 (i - lead) - 1 along every axis. In two sweeps: along y and z onto a sheet,
@@ -54,4 +54,4 @@ struct CoarsePoints {
   std::array<std::uint32_t, 8> point{};
 };
 CoarsePoints coarse_points(const GridLevel& fine, const GridLevel& coarse, std::uint32_t p);
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

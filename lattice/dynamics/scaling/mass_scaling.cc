@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 using meshes::Vector3;
 
@@ -235,4 +235,4 @@ CarriedRubber::Moved MassScaling::move(State& state, const OuterLoads& outer,
                               team, fields.carried, state);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

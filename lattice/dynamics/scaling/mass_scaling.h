@@ -16,7 +16,7 @@
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 /// What scalings of one model have in common.
 struct ScalingGround {
@@ -137,4 +137,4 @@ class MassScaling {
   double step_ = 0.0, sum_of_edges_ = 0.0;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

@@ -5,7 +5,7 @@
 #include "lattice/kernels/by_width.h"
 #include "lattice/kernels/stencil.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 namespace {
 
@@ -332,4 +332,4 @@ void Multigrid::solve(const meshes::Vector3& normal, Team& team, MultigridFields
   Cycle(*this, along, team, fields).run(0);
 }
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

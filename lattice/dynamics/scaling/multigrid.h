@@ -11,7 +11,7 @@
 #include "lattice/kernels/parallel.h"
 #include "lattice/model/state.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 using sweeps::Single;
 
@@ -81,4 +81,4 @@ class Multigrid {
   std::vector<Matrix> matrices_;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

@@ -7,7 +7,7 @@
 #include "lattice/dynamics/scaling/sweeps.h"
 #include "lattice/model/rod.h"
 
-namespace fingertip::lattice {
+namespace fingertip::lattice::inline dynamics::inline scaling {
 
 using sweeps::Single;
 
@@ -36,4 +36,4 @@ struct Restraint {
   Ground found;
 };
 
-}  // namespace fingertip::lattice
+}  // namespace fingertip::lattice::inline dynamics::inline scaling

@@ -5,7 +5,7 @@
 
 #include "lattice/dynamics/scaling/eight.h"
 
-namespace fingertip::lattice::sweeps {
+namespace fingertip::lattice::inline dynamics::inline scaling::sweeps {
 
 namespace {
 
@@ -159,4 +159,4 @@ const Loops& loops_at() {
 }
 template const Loops& loops_at<native_width>();
 
-}  // namespace fingertip::lattice::sweeps
+}  // namespace fingertip::lattice::inline dynamics::inline scaling::sweeps

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace fingertip::lattice::sweeps {
+namespace fingertip::lattice::inline dynamics::inline scaling::sweeps {
 
 /// Single precision: what is solved is a correction, and its sums over particles are put right in
 /// double precision by who asks for it (mass_scaling.h).
@@ -85,4 +85,4 @@ struct Loops {
 template <int width>
 const Loops& loops_at();
 
-}  // namespace fingertip::lattice::sweeps
+}  // namespace fingertip::lattice::inline dynamics::inline scaling::sweeps

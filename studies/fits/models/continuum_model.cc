@@ -8,7 +8,7 @@
 #include "meshes/press/press_response.h"
 #include "studies/presses/reference_job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 namespace {
 
@@ -78,4 +78,4 @@ calibration::ScaledModel continuum_model(
   return {solve, parameters, reference.rubber, lowest_ratio(reference)};
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

@@ -8,7 +8,7 @@
 #include "fem_reference/job/job.h"
 #include "studies/jobs/job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 /// `reference` at a Poisson's ratio, with its G and E = 2G(1 + nu), without fields. Depth, contact,
 /// tilt, strain, law, mesh and tolerance are the job's. Throws InvalidInput, with the Poisson's
@@ -27,4 +27,4 @@ calibration::ScaledModel continuum_model(
     const std::vector<calibration::MaterialParameter>& parameters, const std::string& place,
     const JobContext& context);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

@@ -1,6 +1,6 @@
 #include "studies/fits/models/fit_input.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 using calibration::MaterialParameter;
 
@@ -19,4 +19,4 @@ bool asks_one_press(const FitInput& input) {
   return parameters_of(input) == std::vector{MaterialParameter::modulus};
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

@@ -11,10 +11,10 @@
 #include "calibration/statistics/fit_options.h"
 #include "fem_reference/job/job.h"
 #include "lattice/press/press_setup.h"
-#include "studies/config/config.h"
+#include "studies/config/keys/config.h"
 #include "studies/fits/models/travel.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 /// What answers for one curve.
 enum class CurveKind {
@@ -99,4 +99,4 @@ std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input)
 /// tells everything, whatever rig and relaxation.
 bool asks_one_press(const FitInput& input);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

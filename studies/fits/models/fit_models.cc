@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "calibration/press_fit/damping_models.h"
+#include "calibration/press_fit/lattice_forward_model.h"
 #include "calibration/press_fit/stretch_models.h"
 #include "calibration/statistics/curve_checks.h"
 #include "lattice/press/setup_fields.h"
@@ -18,7 +19,7 @@
 #include "studies/presses/press_record.h"
 #include "studies/presses/reference_job.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 using calibration::CurveFitOptions;
 using calibration::ForwardModel;
@@ -274,4 +275,4 @@ void start_from_data(FitInput& input, const FitModels& models) {
   add_starts_in_time(input);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

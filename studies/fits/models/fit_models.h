@@ -11,7 +11,7 @@
 #include "calibration/press_fit/rig_model.h"
 #include "studies/fits/models/fit_input.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 /// What the answers for curve `i` depend on, and its data.
 nlohmann::ordered_json curve_inputs(const FitInput& input, std::size_t i);
@@ -52,4 +52,4 @@ class FitModels {
 /// count as the indentations that the start of their rig makes of them.
 void start_from_data(FitInput& input, const FitModels& models);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

@@ -11,7 +11,7 @@
 #include "studies/fits/models/fit_rig.h"
 #include "studies/fits/models/travel.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 using calibration::Curve;
 using calibration::CurveSlopes;
@@ -348,4 +348,4 @@ Outlook outlook(const FitInput& input, const FitModels& models, const VectorXd& 
   return result;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

@@ -8,7 +8,7 @@
 #include "calibration/statistics/design.h"
 #include "studies/fits/models/fit_models.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 /// The standard deviation of a force [N] by its size.
 class Noise {
@@ -57,4 +57,4 @@ Outlook outlook(const FitInput& input, const FitModels& models, const Eigen::Vec
                 double deviation, const std::filesystem::path& folder, const JobContext& context,
                 const std::function<bool(double share, const std::string& name)>& go_on);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

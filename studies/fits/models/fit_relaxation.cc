@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 using calibration::Curve;
 using calibration::FitBranch;
@@ -142,4 +142,4 @@ meshes::Relaxation relaxation_of(const FitInput& input, const Eigen::VectorXd& e
   return relaxation;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

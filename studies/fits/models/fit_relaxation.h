@@ -11,7 +11,7 @@
 #include "studies/config/loader.h"
 #include "studies/fits/models/fit_input.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 /// The word of calibration.parameters for shares and times of all branches.
 inline constexpr const char* relaxation_word = "relaxation";
@@ -43,4 +43,4 @@ void add_starts_in_time(FitInput& input);
 /// The branches at the estimates; empty: the rubber does not relax.
 meshes::Relaxation relaxation_of(const FitInput& input, const Eigen::VectorXd& estimates);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

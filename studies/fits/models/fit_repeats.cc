@@ -8,10 +8,11 @@
 #include "calibration/statistics/curve_fit.h"
 #include "calibration/statistics/fit_statistics.h"
 #include "lattice/press/setup_fields.h"
+#include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
 #include "studies/fits/models/fit_rig.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 namespace {
 
@@ -39,19 +40,20 @@ std::vector<Eigen::VectorXd> zeros(const FitInput& input, const Eigen::VectorXd&
   return all;
 }
 
-/// Curves of the same press, by what they have in common.
-std::map<std::string, std::vector<std::size_t>> groups_of(const FitInput& input) {
+}  // namespace
+
+std::vector<std::vector<std::size_t>> alike(const FitInput& input) {
   std::map<std::string, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < input.presses.size(); ++i)
     if (input.kinds[i] == CurveKind::press || input.kinds[i] == CurveKind::continuum)
       groups[press_of(input, i)].push_back(i);
-  return groups;
+  std::vector<std::vector<std::size_t>> curves;
+  for (auto& [press, group] : groups) curves.push_back(std::move(group));
+  return curves;
 }
 
-}  // namespace
-
 void share_depths(FitInput& input) {
-  for (const auto& [press, curves] : groups_of(input)) {
+  for (const auto& curves : alike(input)) {
     const auto reach = [&](std::size_t i) { return input.travels[i]->depths.back(); };
     const std::size_t deepest = *std::ranges::max_element(curves, {}, reach);
     for (const std::size_t i : curves) {
@@ -74,7 +76,7 @@ std::vector<calibration::Repeats> repeats_in(const FitInput& input,
     touch.push_back(is_travel(input, i) ? input.travels[i]->rig.touch_offset
                                         : calibration::RigQuantity());
   std::vector<calibration::Repeats> found;
-  for (const auto& [press, curves] : groups_of(input))
+  for (const auto& curves : alike(input))
     if (curves.size() > 1)
       found.push_back(calibration::repeats_of(curves, input.curves, fit, nuisance, touch,
                                               zeros(input, fit.estimates)));
@@ -229,4 +231,4 @@ CurveFit add_scatter_and_intervals(FitInput& input,
   return own;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

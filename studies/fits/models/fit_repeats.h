@@ -7,13 +7,16 @@
 #include "calibration/press_fit/repeats.h"
 #include "studies/fits/models/fit_input.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 /// Repeats are computed as one press: all take the depths of the one that went deepest.
 void share_depths(FitInput& input);
 
-/// Groups of two curves or more of presses that differ by nothing but their rows: the same finger,
+/// The curves, in groups of presses that differ by nothing but their rows: the same finger,
 /// obstacle, contact and machine.
+std::vector<std::vector<std::size_t>> alike(const FitInput& input);
+
+/// Of groups of two curves or more.
 std::vector<calibration::Repeats> repeats_in(const FitInput& input,
                                              const calibration::CurveFit& fit);
 
@@ -41,4 +44,4 @@ calibration::CurveFit add_scatter_and_intervals(
     FitInput& input, const std::vector<calibration::ForwardModel*>& models,
     calibration::FitRecord& record);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

@@ -10,7 +10,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/tables/interpolation.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 using calibration::Curve;
 using calibration::FreeParameter;
@@ -24,7 +24,7 @@ namespace {
 constexpr double touch_range = 0.3;
 /// Compliances over reach/force: where a search starts, and between which it stays. Noise makes an
 /// estimate negative where there is none.
-constexpr double start_compliance = 0.05, lowest_compliance = -0.1, highest_compliance = 0.9;
+constexpr double start_compliance = 0.05, lowest_compliance = -0.1;
 /// Bounds about the mean of a prior, in deviations.
 constexpr double prior_range = 6.0;
 
@@ -177,4 +177,4 @@ bool is_travel(const FitInput& input, std::size_t i) {
   return i < input.travels.size() && input.travels[i];
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

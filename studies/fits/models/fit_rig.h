@@ -7,7 +7,10 @@
 #include "calibration/press_fit/fit_record.h"
 #include "studies/fits/models/fit_input.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
+
+/// No compliance is sought beyond it, over reach/force.
+inline constexpr double highest_compliance = 0.9;
 
 /// Appends what of the rigs is fitted to the free parameters: an offset of touch, one of force and
 /// a drift per curve, a compliance per machine, which one of its files may tell for all. Throws
@@ -33,4 +36,4 @@ std::vector<double> depths_of_values(const FitInput& input, std::size_t i);
 std::vector<double> at_values(const FitInput& input, std::size_t i,
                               const std::vector<double>& at_samples);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

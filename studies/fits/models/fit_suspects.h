@@ -6,7 +6,7 @@
 #include "calibration/statistics/suspects.h"
 #include "studies/fits/models/fit_models.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 /// Per press of an experiment what finite strain adds to its forces, relative, at every sample;
 /// empty where a theory of large strain is fitted, or where none could be pressed so far.
@@ -25,4 +25,4 @@ std::vector<calibration::Accusation> accusations_of(const FitInput& input,
                                                     const calibration::CurveFitOptions& options,
                                                     const FitModels& models, bool scatter);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

@@ -6,10 +6,10 @@
 
 #include "calibration/press_fit/rig_model.h"
 #include "calibration/statistics/curve.h"
-#include "studies/config/config.h"
+#include "studies/config/keys/config.h"
 #include "studies/measurements/curve_source.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline models {
 
 /// A curve of force over a machine's travel.
 struct Travel {
@@ -29,12 +29,6 @@ struct Travel {
 /// Nothing of it free, at the settings' values.
 calibration::Rig rig_of(const RigSettings& settings);
 
-/// What a rigid blank tells of its machine: the line F = (x - x0)/c through its forces from a tenth
-/// of the largest on. The deviation is that of the slope, as wide as Student's t, and of c between
-/// the lower and the upper half of these forces where they differ by more. Throws InvalidInput for
-/// fewer than six such forces, and where the force does not grow.
-RigSetting compliance_of_blank(const calibration::Curve& curve);
-
 /// `rig` with the compliance that its blank tells, or those `others` of its machine, if there is
 /// one; what is said of that goes into `notes`, once. Throws InvalidInput (key calibration.rig) for
 /// a compliance beside a blank, and as readers of files do.
@@ -47,4 +41,4 @@ RigSettings with_blank(RigSettings rig, std::vector<CurveSource> others,
 /// without times.
 Travel travel_of(const calibration::Curve& curve, const CalibrationSettings& settings);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline models

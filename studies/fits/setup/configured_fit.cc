@@ -16,7 +16,7 @@
 #include "studies/jobs/provenance.h"
 #include "studies/presses/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline setup {
 
 using calibration::FreeParameter;
 using calibration::MaterialParameter;
@@ -259,4 +259,4 @@ FitSetup plan_setup(const LoadedConfig& loaded) {
   return set_up(loaded, Presses::planned);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline setup

@@ -6,7 +6,7 @@
 #include "studies/config/loader.h"
 #include "studies/fits/setup/fit_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline setup {
 
 /// Throws ConfigError with every problem of [calibration], of a condition or a measured file.
 FitSetup fit_setup(const LoadedConfig& loaded);
@@ -19,4 +19,4 @@ FitSetup plan_setup(const LoadedConfig& loaded);
 /// the data's, over the rubber's thickness.
 std::string strain_words(double depth, double excess);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline setup

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "meshes/base/files.h"
-#include "studies/config/trimmed.h"
+#include "studies/config/text/trimmed.h"
 #include "studies/presses/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline setup {
 
 using calibration::Curve;
 
@@ -164,4 +164,4 @@ void add_continuum_curves(FitSetup& fit, const LoadedConfig& loaded) {
   }
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline setup

@@ -8,7 +8,7 @@
 #include "studies/fits/setup/fit_setup.h"
 #include "studies/presses/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline setup {
 
 /// "press.contact = stick; press.tilt=20 deg" as --set texts.
 std::vector<std::string> settings_in(std::string_view condition);
@@ -45,4 +45,4 @@ void add_continuum_curves(FitSetup& fit, const LoadedConfig& loaded);
 /// with file and line, for files that cannot be read or do not go into one fit.
 void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline setup

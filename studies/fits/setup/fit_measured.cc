@@ -16,7 +16,7 @@
 #include "studies/measurements/curve_file.h"
 #include "studies/measurements/curve_text.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline setup {
 
 using calibration::Curve;
 
@@ -329,4 +329,4 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
   check_curves(loaded, fit.input, files);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline setup

@@ -12,7 +12,7 @@
 #include "studies/fits/models/fit_relaxation.h"
 #include "studies/fits/setup/fit_curves.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline setup {
 
 using calibration::FreeParameter;
 using calibration::MaterialParameter;
@@ -193,4 +193,4 @@ std::vector<double> start_ratios(const FitInput& input) {
   return ratios;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline setup

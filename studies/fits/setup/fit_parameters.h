@@ -7,7 +7,7 @@
 
 #include "studies/fits/setup/fit_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline setup {
 
 /// Whether presses of a rubber that relaxes tell its relaxation besides.
 inline bool knows_relaxation(const CalibrationSettings& settings) {
@@ -30,4 +30,4 @@ void bound_poissons_ratio(const LoadedConfig& loaded, FitInput& input);
 /// (calibration/moduli/README).
 std::vector<double> start_ratios(const FitInput& input);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline setup

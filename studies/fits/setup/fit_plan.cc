@@ -7,13 +7,13 @@
 #include "calibration/press_fit/model_error.h"
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_table.h"
 #include "studies/fits/models/fit_rig.h"
 #include "studies/fits/models/travel.h"
 #include "studies/fits/setup/fit_curves.h"
 #include "studies/presses/press_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline setup {
 
 using calibration::Curve;
 
@@ -286,4 +286,4 @@ std::vector<Candidate> candidates_of(const LoadedConfig& loaded, const FitSetup&
   return candidates;
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline setup

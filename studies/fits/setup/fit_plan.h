@@ -6,7 +6,7 @@
 
 #include "studies/fits/setup/fit_setup.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline setup {
 
 /// A curve without forces per condition, named by the file of calibration.data that will hold it,
 /// where files are named. Its x are indentations, press.samples or else calibration.points even
@@ -27,4 +27,4 @@ void add_planned_curves(FitSetup& fit, const LoadedConfig& loaded);
 /// word that is none of these.
 std::vector<Candidate> candidates_of(const LoadedConfig& loaded, const FitSetup& fit);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline setup

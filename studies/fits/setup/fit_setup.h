@@ -7,7 +7,7 @@
 #include "studies/config/loader.h"
 #include "studies/fits/models/fit_input.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline fits::inline setup {
 
 /// A fit's input as far as the configuration and measured files tell. The continuum of a curve
 /// answers for it, makes its data (y is then still empty), or can judge the lattice.
@@ -20,4 +20,4 @@ struct FitSetup {
   std::vector<std::string> notes;  ///< on measured files, strain and budget; for people
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline fits::inline setup

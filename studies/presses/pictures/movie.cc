@@ -11,7 +11,7 @@
 #include "meshes/shape/meridian.h"
 #include "studies/presses/pictures/vtk_text.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses::inline pictures {
 
 using lattice::BoundaryView;
 using lattice::FingerPicture;
@@ -138,4 +138,4 @@ void Movie::write_series() const {
   vtk::write_series(folder_ / "movie.pvd", times_);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses::inline pictures

@@ -8,7 +8,7 @@
 #include "lattice/press/boundary_view.h"
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses::inline pictures {
 
 /// A mesh with data, one piece of a VTK file: points in m, cells as VTK knows them.
 struct MoviePiece {
@@ -48,4 +48,4 @@ class Movie {
   std::vector<meshes::Vector3> first_rod_, first_plane_;  ///< places in the first picture [m]
 };
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses::inline pictures

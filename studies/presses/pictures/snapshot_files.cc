@@ -5,7 +5,7 @@
 #include "meshes/tables/table_rows.h"
 #include "studies/files/run_tables.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses::inline pictures {
 
 namespace fs = std::filesystem;
 using lattice::MomentPicture;
@@ -53,4 +53,4 @@ void write_shapes(const lattice::PressShapes& shapes, const fs::path& folder) {
   write_snapshots(shapes.snapshots, folder);
 }
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses::inline pictures

@@ -5,7 +5,7 @@
 
 #include "lattice/press/press_shapes.h"
 
-namespace fingertip::studies {
+namespace fingertip::studies::inline presses::inline pictures {
 
 /// World axes, of which the plane is at rest.
 ///   boundary.csv          at rest and at the end, which of it is held
@@ -15,4 +15,4 @@ namespace fingertip::studies {
 ///   snapshot_points.csv   the boundary then, in the order of boundary.csv, to 10 nm
 void write_shapes(const lattice::PressShapes& shapes, const std::filesystem::path& folder);
 
-}  // namespace fingertip::studies
+}  // namespace fingertip::studies::inline presses::inline pictures

@@ -8,7 +8,7 @@
 
 #include "meshes/base/files.h"
 
-namespace fingertip::studies::vtk {
+namespace fingertip::studies::inline presses::inline pictures::vtk {
 
 namespace {
 
@@ -79,4 +79,4 @@ void write_series(const std::filesystem::path& file, const std::vector<double>& 
   });
 }
 
-}  // namespace fingertip::studies::vtk
+}  // namespace fingertip::studies::inline presses::inline pictures::vtk

@@ -9,7 +9,7 @@
 
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::studies::vtk {
+namespace fingertip::studies::inline presses::inline pictures::vtk {
 
 /// VTK's numbers for kinds of cells.
 inline constexpr std::uint8_t vertex = 1, line = 3, triangle = 5, quadrangle = 9, tetrahedron = 10;
@@ -41,4 +41,4 @@ std::string frame_name(std::size_t frame);
 /// Writes a .pvd that lists frame_0000.vtu, ... beside it with their times [s].
 void write_series(const std::filesystem::path& file, const std::vector<double>& times);
 
-}  // namespace fingertip::studies::vtk
+}  // namespace fingertip::studies::inline presses::inline pictures::vtk

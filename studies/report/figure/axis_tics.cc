@@ -7,7 +7,7 @@
 
 #include "studies/report/figure/format.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 namespace {
 
 /// Powers of ten that enclose a positive extent, with 2 and 5 times them where `finely`.
@@ -55,4 +55,4 @@ std::string tic_label(double value) {
   return mantissa == "1" ? power_of_ten(exponent) : mantissa + "×" + power_of_ten(exponent);
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

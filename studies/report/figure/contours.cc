@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 namespace {
 
 using Values = std::vector<double>;
@@ -173,4 +173,4 @@ std::vector<Polyline> level_lines(const GridFunction& grid, double level) {
   return LevelSearch(grid, level).lines();
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 
 /// Values over a grid of two increasing lists; rows along `x`, columns along `y`, NaN where
 /// unknown.
@@ -27,4 +27,4 @@ using Polyline = std::vector<std::pair<double, double>>;
 /// of a closed line is also its last. Cells with an unknown corner hold none.
 std::vector<Polyline> level_lines(const GridFunction& grid, double level);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

@@ -20,7 +20,7 @@
 #include "studies/report/figure/format.h"
 #include "studies/report/figure/surface_script.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 namespace {
 
 namespace fs = std::filesystem;
@@ -315,4 +315,4 @@ Drawing draw(const Figure& figure, const std::string& title, const fs::path& fol
   return {inlined(std::move(image), figure.name, title), page_points(figure, message)};
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

@@ -6,7 +6,7 @@
 
 #include "studies/report/figure/figure.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 
 /// Draws the figure with gnuplot (started as a process) into `folder`/NAME.svg and writes what is
 /// plotted to `folder`/NAME.csv: one row per point, `panel,series`, then one column per distinct
@@ -19,4 +19,4 @@ struct Drawing {
 };
 Drawing draw(const Figure& figure, const std::string& title, const std::filesystem::path& folder);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

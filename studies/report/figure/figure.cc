@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 
 std::string gnuplot_string(const std::string& text) {
   std::string result = "'";
@@ -51,4 +51,4 @@ std::string model_label(const std::string& name) {
   return name == "published" ? "published (1996)" : name;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 
 /// How a curve looks. Colours are the colour-blind-safe ones of Okabe & Ito (2008); every model
 /// keeps its colour and dash pattern in all figures.
@@ -120,4 +120,4 @@ inline constexpr const char* tell_axes =
     "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX, GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, "
     "GPVAL_Y_MAX)\n";
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

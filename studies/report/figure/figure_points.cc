@@ -12,7 +12,7 @@
 #include "meshes/tables/table_rows.h"
 #include "studies/report/figure/surface_script.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 namespace {
 
 namespace fs = std::filesystem;
@@ -157,4 +157,4 @@ std::string page_points(const Figure& figure, const std::string& log) {
   return text;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

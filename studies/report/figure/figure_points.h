@@ -7,7 +7,7 @@
 
 #include "studies/report/figure/figure.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 
 /// Whether something of the series can be seen: logarithmic axes show positive numbers alone.
 bool visible(const Panel& panel, const Series& series);
@@ -22,4 +22,4 @@ void write_points(const Figure& figure, const std::filesystem::path& file);
 /// line "axes ..." per panel.
 std::string page_points(const Figure& figure, const std::string& log);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

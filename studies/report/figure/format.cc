@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 namespace {
 
 const std::string minus = "−";
@@ -160,4 +160,4 @@ std::string mark(Grade grade) {
   return "";
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

@@ -5,7 +5,7 @@
 
 #include "studies/files/shown_units.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 
 inline constexpr double degree_per_radian = 57.29577951308232;
 
@@ -78,4 +78,4 @@ std::string enumerate(const Strings& names) {
   return text;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

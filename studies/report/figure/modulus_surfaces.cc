@@ -8,7 +8,7 @@
 #include "meshes/press/press_response.h"
 #include "studies/report/figure/format.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 namespace {
 
 using calibration::ElasticModuli;
@@ -80,4 +80,4 @@ Figure modulus_surface_figure(const std::string& name,
   return figure;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

@@ -8,7 +8,7 @@
 #include "calibration/material/moduli.h"
 #include "studies/report/figure/figure.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 
 /// A cubic material from tension along a cube axis and shear of its faces [Pa]: S11 = 1/E_100,
 /// S12 = -nu_100/E_100, C11 - C12 = 1/(S11 - S12), C11 + 2 C12 = 1/(S11 + 2 S12) (Nye, Physical
@@ -23,4 +23,4 @@ Figure modulus_surface_figure(
     const std::string& name,
     const std::vector<std::pair<std::string, calibration::ElasticModuli>>& materials);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

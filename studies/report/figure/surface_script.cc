@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 namespace {
 
 using nlohmann::ordered_json;
@@ -196,4 +196,4 @@ std::string surface_script(const Figure& figure) {
   return text + "unset multiplot\n";
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

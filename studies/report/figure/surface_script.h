@@ -6,7 +6,7 @@
 
 #include "studies/report/figure/figure.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline figure {
 
 /// The part of a gnuplot script that draws the surfaces of the figure's panels.
 std::string surface_script(const Figure& figure);
@@ -20,4 +20,4 @@ nlohmann::ordered_json turning_surface(const Panel& panel, double side);
 /// Left of this lies what turns, right of it the colour scale [px].
 double colour_scale_at(const Figure& figure);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline figure

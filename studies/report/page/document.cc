@@ -10,15 +10,15 @@
 #include "studies/report/figure/drawing.h"
 #include "studies/report/page/templates.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline page {
 namespace {
 
 namespace fs = std::filesystem;
-using kainjow::mustache::data;
+using Data = kainjow::mustache::data;
 using List = kainjow::mustache::list;
 
-data cell_data(const Cell& cell, bool row_name) {
-  data result;
+Data cell_data(const Cell& cell, bool row_name) {
+  Data result;
   result.set("cell_tag", row_name ? "th" : "td");
   result.set("row_name", row_name);
   result.set("cell_text", cell.text);
@@ -32,10 +32,10 @@ data cell_data(const Cell& cell, bool row_name) {
   return result;
 }
 
-data row_data(const std::vector<Cell>& row) {
-  data cells{List()};
+Data row_data(const std::vector<Cell>& row) {
+  Data cells{List()};
   for (std::size_t i = 0; i < row.size(); ++i) cells << cell_data(row[i], i == 0);
-  data result;
+  Data result;
   result.set("cells", cells);
   return result;
 }
@@ -45,37 +45,37 @@ class BlockData {
  public:
   explicit BlockData(fs::path figures) : figures_(std::move(figures)) {}
 
-  data operator()(const Paragraph& paragraph) const {
-    data inner;
+  Data operator()(const Paragraph& paragraph) const {
+    Data inner;
     inner.set("lead", paragraph.lead);
     inner.set("has_lead", !paragraph.lead.empty());
     inner.set("text", paragraph.text);
     inner.set("warning", paragraph.warning);
-    return data("paragraph", inner);
+    return Data("paragraph", inner);
   }
 
-  data operator()(const Listing& listing) const {
-    data inner;
+  Data operator()(const Listing& listing) const {
+    Data inner;
     inner.set("listing_title", listing.title);
     inner.set("listing_text", listing.text);
-    return data("listing", inner);
+    return Data("listing", inner);
   }
 
-  data operator()(const Table& table) const {
-    data header{List()}, rows{List()};
+  Data operator()(const Table& table) const {
+    Data header{List()}, rows{List()};
     for (const Cell& cell : table.header) header << cell_data(cell, false);
     for (const auto& row : table.rows) rows << row_data(row);
-    data inner;
+    Data inner;
     inner.set("table_caption", table.caption);
     inner.set("header", header);
     inner.set("rows", rows);
     inner.set("graded", table.graded);
     inner.set("dense", table.header.size() > 8);
-    return data("table", inner);
+    return Data("table", inner);
   }
 
-  data operator()(const FigureBlock& block) const {
-    data inner;
+  Data operator()(const FigureBlock& block) const {
+    Data inner;
     const Drawing drawing = draw(block.figure, block.title, figures_);
     inner.set("svg", drawing.svg);
     inner.set("points", drawing.points);
@@ -83,7 +83,7 @@ class BlockData {
     inner.set("figure_name", block.figure.name);
     inner.set("figure_title", block.title);
     inner.set("figure_caption", block.caption);
-    return data("figure", inner);
+    return Data("figure", inner);
   }
 
  private:
@@ -91,31 +91,31 @@ class BlockData {
 };
 
 std::string render(const Page& page, const fs::path& figures) {
-  data chapters{List()}, missing{List()}, damaged{List()}, rejected{List()};
+  Data chapters{List()}, missing{List()}, damaged{List()}, rejected{List()};
   for (const Chapter& chapter : page.chapters) {
     if (chapter.blocks.empty()) continue;
-    data blocks{List()};
+    Data blocks{List()};
     for (const Block& block : chapter.blocks) blocks << std::visit(BlockData(figures), block);
-    data entry;
+    Data entry;
     entry.set("chapter_id", chapter.id);
     entry.set("chapter_title", chapter.title);
     entry.set("blocks", blocks);
     chapters << entry;
   }
   for (const NotRun& item : page.not_run) {
-    data entry;
+    Data entry;
     entry.set("what", item.what);
     entry.set("files", item.missing);
     missing << entry;
   }
-  for (const std::string& reason : page.rejected) rejected << data("reason", reason);
+  for (const std::string& reason : page.rejected) rejected << Data("reason", reason);
   for (const Damaged& item : page.damaged) {
-    data entry;
+    Data entry;
     entry.set("place", item.place);
     entry.set("what", item.what);
     damaged << entry;
   }
-  data root;
+  Data root;
   root.set("damaged", damaged);
   root.set("has_damaged", !page.damaged.empty());
   root.set("rejected", rejected);
@@ -168,4 +168,4 @@ void publish(const Page& page, const fs::path& folder, const std::string& file_n
   meshes::write_atomically(folder / file_name, [&](std::ostream& out) { out << html; });
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline page

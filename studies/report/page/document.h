@@ -9,7 +9,7 @@
 #include "studies/report/figure/figure.h"
 #include "studies/report/figure/format.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline page {
 
 /// Running text, with an optional lead-in in bold.
 struct Paragraph {
@@ -83,4 +83,4 @@ struct Page {
 /// made in a hidden folder beside them first, so an error leaves the old page untouched.
 void publish(const Page& page, const std::filesystem::path& folder, const std::string& file_name);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline page

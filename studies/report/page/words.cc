@@ -9,7 +9,7 @@
 
 #include "studies/report/page/templates.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline page {
 namespace {
 
 using Filling = kainjow::mustache::data;
@@ -209,4 +209,4 @@ std::string joined(const std::string& first, const std::string& second) {
   return first.empty() || second.empty() ? first + second : first + ' ' + second;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline page

@@ -27,7 +27,7 @@
 
 #include "studies/report/page/document.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline page {
 
 /// What the names in a template stand for: a text, a condition, or a list whose section is repeated
 /// for each of its entries. As the condition of a section an empty text is false.
@@ -64,4 +64,4 @@ std::string if_known(double value, const std::string& text);
 /// Both texts, one after the other.
 std::string joined(const std::string& first, const std::string& second);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline page

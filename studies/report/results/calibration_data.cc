@@ -8,7 +8,7 @@
 #include "calibration/statistics/curve_checks.h"
 #include "studies/report/figure/format.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -243,4 +243,4 @@ CalibrationData read_calibration(const RunData& run, FolderReader& reader) {
   return data;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline results

@@ -9,7 +9,7 @@
 #include "calibration/files/fit_tables.h"
 #include "studies/report/results/run_data.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline results {
 
 /// A quantity as files name it, "force [N]", and how the reader sees it: in the unit that
 /// the table of shown_units.h has for it, else in SI.
@@ -92,4 +92,4 @@ struct CalibrationData {
 /// absent. What is damaged stays empty and is noted in `reader`.
 CalibrationData read_calibration(const RunData& run, FolderReader& reader);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline results

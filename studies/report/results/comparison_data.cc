@@ -11,7 +11,7 @@
 #include "studies/report/figure/format.h"
 #include "studies/report/results/run_data.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -236,4 +236,4 @@ Comparison read_comparison(const std::vector<fs::path>& runs, FolderReader& read
   return compare(std::move(curves));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline results

@@ -11,7 +11,7 @@
 #include "studies/files/press_condition.h"
 #include "studies/report/figure/figure.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline results {
 
 /// Samples of one depth: a controller may stop a rounding error beside it.
 inline constexpr double rounding_of_depths = 1e-6;
@@ -85,4 +85,4 @@ OverallDifference overall(const ComparedCurve& curve, const ComparedCurve& first
 /// The names of those whose forces are interpolated somewhere; empty without any.
 std::string interpolated_curves(const Comparison& comparison);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline results

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline results {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::vector<GraspRun> read_grasps(const RunData& run, FolderReader& reader) {
   return grasps;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline results

@@ -9,7 +9,7 @@
 #include "studies/report/page/document.h"
 #include "studies/report/results/run_data.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline results {
 
 /// One grasp; what its folder does not hold is empty.
 struct GraspRun {
@@ -39,11 +39,4 @@ GraspRun read_grasp(const std::filesystem::path& folder, const std::string& seri
 /// The grasps that `run` lists in its summary.
 std::vector<GraspRun> read_grasps(const RunData& run, FolderReader& reader);
 
-/// The result in one paragraph, and as a table in plain text.
-std::string grasp_answer(const std::vector<GraspRun>& grasps);
-std::string grasp_text(const std::vector<GraspRun>& grasps);
-/// Fate against grip force, slip while the grip falls, which way friction points, one grasp in
-/// time; without blocks when there are no grasps.
-Chapter grasp_chapter(const std::vector<GraspRun>& grasps);
-
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline results

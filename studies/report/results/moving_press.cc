@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline results {
 
 namespace fs = std::filesystem;
 
@@ -79,4 +79,4 @@ double mode_switches(const std::vector<TraceRow>& trace) {
   return switches;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline results

@@ -7,7 +7,7 @@
 #include "studies/report/page/document.h"
 #include "studies/report/results/run_data.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline results {
 
 /// One press, or one at rest; what its folder does not hold is empty.
 struct MovingPress : PressFiles {
@@ -43,24 +43,4 @@ double force_overshoot(const std::vector<lattice::TraceRow>& trace);
 /// How often the trace changes between speed and force; NaN without rows.
 double mode_switches(const std::vector<lattice::TraceRow>& trace);
 
-/// The result in one paragraph, and as a table in plain text.
-std::string control_answer(const std::vector<MovingPress>& presses);
-std::string control_text(const std::vector<MovingPress>& presses);
-
-/// What `presses` did under their controllers; a chapter without blocks when none has a trace.
-Chapter control_chapter(const std::vector<MovingPress>& presses);
-/// The finger before contact, at first touch, at half depth and at the end, of those `pictured`.
-Chapter snapshots_chapter(const std::vector<MovingPress>& presses);
-/// Force against indentation beside the transient continuum, and how far presses differ from those
-/// they are compared with.
-Chapter speed_chapter(const std::vector<MovingPress>& presses);
-
-/// Whether `presses` differ in how time is integrated: their rods are prescribed, nothing is
-/// controlled.
-bool compares_integrators(const std::vector<MovingPress>& presses);
-/// The same three for them; the chapter has no blocks for presses of another kind.
-std::string integrators_answer(const std::vector<MovingPress>& presses);
-std::string integrators_text(const std::vector<MovingPress>& presses);
-Chapter integrators_chapter(const std::vector<MovingPress>& presses);
-
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline results

@@ -7,7 +7,7 @@
 
 #include "meshes/base/errors.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -229,4 +229,4 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   return run;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline results

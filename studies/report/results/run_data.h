@@ -19,7 +19,7 @@
 #include "studies/files/press_summary.h"
 #include "studies/files/run_tables.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline results {
 
 /// NaN when there is none; NaN among others does not count.
 double largest_magnitude(const std::vector<double>& values);
@@ -110,4 +110,4 @@ bool is_continuum(const std::filesystem::path& folder);
 /// rounding error short of the last depth.
 double force_at(const meshes::PressResponse& response, double depth);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline results

@@ -7,6 +7,7 @@
 #include "calculix.h"
 #include "comparison.h"
 #include "fem_program.h"
+#include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/volume_mesh/volume_mesh.h"
 #include "tests/temporary_folder.h"

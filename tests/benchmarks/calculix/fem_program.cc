@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "meshes/base/files.h"
+#include "meshes/press/fields.h"
 #include "meshes/press/press_response.h"
 #include "meshes/tables/fields_json.h"
 

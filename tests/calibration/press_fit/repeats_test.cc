@@ -1,5 +1,6 @@
 /// Scatter between repeats: what is told of it, and whether intervals that contain it are honest.
 #include "calibration/press_fit/repeats.h"
+#include "calibration/statistics/curve_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 
+#include "calibration/press_fit/lattice_forward_model.h"
 #include "calibration/statistics/curve_fit.h"
 #include "lattice/press/static_press.h"
 #include "meshes/base/errors.h"

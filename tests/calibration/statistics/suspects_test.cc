@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "calibration/statistics/curve_fit.h"
 #include "meshes/base/errors.h"
 
 using namespace fingertip;

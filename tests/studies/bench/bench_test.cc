@@ -90,7 +90,7 @@ TEST(Bench, TheSmallestRunKeepsTheContractAndMakesAPage) {
   EXPECT_DOUBLE_EQ(press.at("spacing_over_R").get<double>(), 0.25);
   EXPECT_TRUE(press.at("real_time_factor").is_number());
   EXPECT_TRUE(press.at("worst_force_error").is_number());
-  studies::write_report(folder / "run");
+  studies::report::write_report(folder / "run");
   const std::string page = read_text(folder / "run/report.html");
   EXPECT_NE(page.find("Error against speed"), std::string::npos);
   EXPECT_NE(page.find("network"), std::string::npos);

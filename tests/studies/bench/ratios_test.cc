@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "studies/bench/lammps.h"
-#include "studies/exchange/lammps_files.h"
+#include "studies/exchange/lammps/lammps_files.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "lattice/forces/energy.h"
-#include "studies/exchange/lammps_files.h"
-#include "studies/exchange/lammps_program.h"
+#include "studies/exchange/lammps/lammps_files.h"
+#include "studies/exchange/lammps/lammps_program.h"
 #include "studies/presses/press_setup.h"
 #include "tests/studies/exchange/undamped_march.h"
 #include "tests/temporary_folder.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lattice/dynamics/finger.h"
-#include "studies/exchange/undamped_body.h"
+#include "studies/exchange/lammps/undamped_body.h"
 
 namespace fingertip::studies {
 

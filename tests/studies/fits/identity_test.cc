@@ -12,10 +12,10 @@
 
 #include "meshes/base/files.h"
 #include "meshes/press/press_response.h"
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_table.h"
 #include "studies/config/value_reader.h"
-#include "studies/fits/jobs/calibration_stages.h"
-#include "studies/fits/jobs/plan_job.h"
+#include "studies/fits/runs/calibration_stages.h"
+#include "studies/fits/runs/plan_job.h"
 #include "studies/fits/setup/configured_fit.h"
 #include "studies/presses/grasp_job.h"
 #include "studies/presses/modes_job.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "calibration/material_tests/strain_grid.h"
 #include "meshes/base/errors.h"
-#include "studies/measurements/strain_grid.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "studies/config/key_table.h"
+#include "studies/config/keys/key_table.h"
 #include "tests/studies/program.h"
 #include "tests/temporary_folder.h"
 

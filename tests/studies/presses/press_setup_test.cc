@@ -8,7 +8,7 @@
 #include "calibration/material/moduli.h"
 #include "lattice/press/static_press.h"
 #include "studies/config/documents.h"
-#include "studies/fits/jobs/moduli_job.h"
+#include "studies/fits/runs/moduli_job.h"
 #include "studies/presses/modes_job.h"
 #include "studies/presses/press_job.h"
 #include "studies/presses/reference_job.h"

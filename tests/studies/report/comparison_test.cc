@@ -42,8 +42,8 @@ TEST(Comparison, GivesDifferencesRelativeToTheFirstRun) {
   TemporaryFolder folder;
   write_line(folder.path() / "soft", 1.0, 0.002);
   write_line(folder.path() / "stiff", 1.25, 0.002);
-  studies::write_comparison({folder.path() / "soft", folder.path() / "stiff"},
-                            folder.path() / "out");
+  studies::report::write_comparison({folder.path() / "soft", folder.path() / "stiff"},
+                                    folder.path() / "out");
   const auto rows = cells(read_text(folder.path() / "out" / "comparison.csv"));
   ASSERT_EQ(rows.size(), 11U);
   EXPECT_EQ(rows[0][1], "soft normal_force [N]");
@@ -92,8 +92,8 @@ TEST(Comparison, APressOfARejectedFitSaysSoFirst) {
   report_testing::write_file(
       folder.path() / "foam" / "summary.json",
       R"({"warnings": ["deep", "material.toml: the fit failed its own tests: E = 0.5 Pa"]})");
-  const auto result = studies::write_comparison({folder.path() / "plain", folder.path() / "foam"},
-                                                folder.path() / "out");
+  const auto result = studies::report::write_comparison(
+      {folder.path() / "plain", folder.path() / "foam"}, folder.path() / "out");
   EXPECT_EQ(result.text.rfind("NOT ACCEPTED: foam: material.toml: the fit failed", 0), 0u)
       << result.text;
   const std::string html = read_text(folder.path() / "out" / "comparison.html");
@@ -121,7 +121,7 @@ TEST(Comparison, TellsOfShapesWhatHoldsForBoth) {
               finger(twelve + R"(,"rod_length":0)", R"("solid":"0123abcd")"));
   const auto remark = [&](const char* one, const char* other) {
     const std::string text =
-        studies::write_comparison({folder / other, folder / one}, folder / "out").text;
+        studies::report::write_comparison({folder / other, folder / one}, folder / "out").text;
     const auto from = text.find("problem ("), to = text.find("): the percentages");
     return to == text.npos ? text : text.substr(from + 9, to - from - 9);
   };
@@ -139,7 +139,7 @@ TEST(Comparison, TellsNothingOutsideTheSamplesOfARun) {
   write_press(folder / "fine", fine);
   write_press(folder / "coarse", {{1e-3, 2.2}, {2e-3, 8.8}});
   const auto result =
-      studies::write_comparison({folder / "fine", folder / "coarse"}, folder / "out");
+      studies::report::write_comparison({folder / "fine", folder / "coarse"}, folder / "out");
   // Common samples alone, at both of which the forces differ by 10 %.
   const auto rows = cells(read_text(folder / "out/comparison.csv"));
   ASSERT_EQ(rows.size(), 3U);
@@ -154,7 +154,8 @@ TEST(Comparison, InterpolatesInsideTheSamplesWhereNoneAreCommonAndSaysSo) {
   const TemporaryFolder folder;
   write_press(folder / "a", {{0.5e-3, 0.5}, {1e-3, 1.0}, {1.5e-3, 1.5}, {2e-3, 2.0}, {3e-3, 3.0}});
   write_press(folder / "b", {{0.9e-3, 0.99}, {1.2e-3, 1.32}, {2.1e-3, 2.31}});
-  const auto result = studies::write_comparison({folder / "a", folder / "b"}, folder / "out");
+  const auto result =
+      studies::report::write_comparison({folder / "a", folder / "b"}, folder / "out");
   const auto rows = cells(read_text(folder / "out/comparison.csv"));
   ASSERT_EQ(rows.size(), 4U);  // 1, 1.5 and 2 mm
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -172,7 +173,7 @@ TEST(Comparison, FewSamplesAreDrawnAsTheCurveThatForcesAreComparedBy) {
   const TemporaryFolder folder;
   write_press(folder / "a", {{1e-3, 1.0}, {2e-3, 4.0}, {3e-3, 9.0}});
   write_press(folder / "b", {{1e-3, 1.1}, {2e-3, 4.4}, {3e-3, 9.9}});
-  studies::write_comparison({folder / "a", folder / "b"}, folder / "out");
+  studies::report::write_comparison({folder / "a", folder / "b"}, folder / "out");
   // The numbers are the samples, the line has a point per 1/200 of the depth.
   EXPECT_EQ(cells(read_text(folder / "out/figures/comparison_force.csv")).size(), 7U);
   const std::string html = read_text(folder / "out/comparison.html");
@@ -190,7 +191,8 @@ TEST(Comparison, OneSampleOfEachAtOneDepthIsCompared) {
   const TemporaryFolder folder;
   write_press(folder / "a", {{1e-3, 1.0}});
   write_press(folder / "b", {{1e-3, 1.5}});
-  const auto result = studies::write_comparison({folder / "a", folder / "b"}, folder / "out");
+  const auto result =
+      studies::report::write_comparison({folder / "a", folder / "b"}, folder / "out");
   const auto rows = cells(read_text(folder / "out/comparison.csv"));
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_NEAR(std::stod(rows[1][3]), 0.5, 1e-12);
@@ -205,7 +207,8 @@ TEST(Comparison, ForcesAgainstIndentationEndWithThePress) {
   report_testing::write_file(folder / "a/response.csv",
                              press + "0.002,7,0.5,0.0001\n0.002,9,1,0.0002\n");
   report_testing::write_file(folder / "b/response.csv", press + "0.002,8,0.7,0.0002\n");
-  const auto result = studies::write_comparison({folder / "a", folder / "b"}, folder / "out");
+  const auto result =
+      studies::report::write_comparison({folder / "a", folder / "b"}, folder / "out");
   const auto rows = cells(read_text(folder / "out/comparison.csv"));
   ASSERT_EQ(rows.size(), 3U);
   for (const std::size_t i : {1, 2}) EXPECT_EQ(std::stod(rows[i][3]), 0.0);
@@ -229,7 +232,7 @@ TEST(Comparison, SaysThatRunsOfAnotherContactAreNotTheSameProblem) {
   write_press(folder / "unknown", samples);
   const auto compare = [&](const char* name) {
     const auto result =
-        studies::write_comparison({folder / "stick", folder / name}, folder / "out");
+        studies::report::write_comparison({folder / "stick", folder / name}, folder / "out");
     return std::pair{result.text,
                      report_testing::visible_text(read_text(folder / "out/comparison.html"))};
   };
@@ -255,8 +258,8 @@ TEST(Comparison, LeavesCellsEmptyBeyondTheDepthOfARun) {
   TemporaryFolder folder;
   write_line(folder.path() / "deep", 1.0, 0.002);
   write_line(folder.path() / "shallow", 1.0, 0.001);
-  studies::write_comparison({folder.path() / "deep", folder.path() / "shallow/"},
-                            folder.path() / "out");
+  studies::report::write_comparison({folder.path() / "deep", folder.path() / "shallow/"},
+                                    folder.path() / "out");
   const auto rows = cells(read_text(folder.path() / "out" / "comparison.csv"));
   EXPECT_EQ(rows[0][2], "shallow normal_force [N]");
   EXPECT_NEAR(std::stod(rows[5][3]), 0.0, 1e-12);
@@ -266,7 +269,7 @@ TEST(Comparison, LeavesCellsEmptyBeyondTheDepthOfARun) {
 TEST(Comparison, TakesAValidateRunApartWithTheContinuumFirst) {
   TemporaryFolder folder;
   report_testing::write_synthetic_run(folder.path() / "run");
-  studies::write_comparison({folder.path() / "run"}, folder.path() / "out");
+  studies::report::write_comparison({folder.path() / "run"}, folder.path() / "out");
   const auto rows = cells(read_text(folder.path() / "out" / "comparison.csv"));
   EXPECT_EQ(rows[0][1], "run/reference normal_force [N]");
   ASSERT_GE(rows[0].size(), 3U);
@@ -280,8 +283,8 @@ TEST(Comparison, TellsRunsOfTheSameNameApartAndEscapesNames) {
   const std::string odd = "it's <b>&, \"odd\"";
   write_line(folder.path() / "a" / odd, 1.0, 0.002);
   write_line(folder.path() / "b" / odd, 2.0, 0.002);
-  studies::write_comparison({folder.path() / "a" / odd, folder.path() / "b" / odd},
-                            folder.path() / "out");
+  studies::report::write_comparison({folder.path() / "a" / odd, folder.path() / "b" / odd},
+                                    folder.path() / "out");
   const std::string html = read_text(folder.path() / "out" / "comparison.html");
   EXPECT_TRUE(report_testing::structure_faults(html).empty())
       << report_testing::structure_faults(html).front();
@@ -292,10 +295,10 @@ TEST(Comparison, RefusesLessThanTwoCurvesAndFoldersWithoutOne) {
   TemporaryFolder folder;
   write_line(folder.path() / "only", 1.0, 0.002);
   fs::create_directories(folder.path() / "empty");
-  EXPECT_THROW(studies::write_comparison({folder.path() / "only"}, folder.path() / "out"),
+  EXPECT_THROW(studies::report::write_comparison({folder.path() / "only"}, folder.path() / "out"),
                meshes::InvalidInput);
-  EXPECT_THROW(studies::write_comparison({folder.path() / "only", folder.path() / "empty"},
-                                         folder.path() / "out"),
+  EXPECT_THROW(studies::report::write_comparison({folder.path() / "only", folder.path() / "empty"},
+                                                 folder.path() / "out"),
                meshes::InvalidInput);
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
 }

@@ -7,7 +7,10 @@
 #include <sstream>
 
 #include "meshes/base/errors.h"
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/continuum/continuum_chapters.h"
+#include "studies/report/chapters/models/model_chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
+#include "studies/report/report_parts.h"
 #include "tests/studies/report/page_check.h"
 #include "tests/studies/report/synthetic_run.h"
 
@@ -23,7 +26,7 @@ struct SyntheticRun {
   fs::path path = folder.path() / "run";
   SyntheticRun() { report_testing::write_synthetic_run(path); }
   std::string report() {
-    studies::write_report(path);
+    studies::report::write_report(path);
     return read_text(path / "report.html");
   }
 };
@@ -216,15 +219,15 @@ TEST(Report, EscapesWhatComesFromFiles) {
 
 TEST(Report, RefusesAFolderThatIsNoRun) {
   TemporaryFolder folder;
-  EXPECT_THROW(studies::write_report(folder.path()), meshes::InvalidInput);
-  EXPECT_THROW(studies::write_report(folder.path() / "absent"), meshes::InvalidInput);
+  EXPECT_THROW(studies::report::write_report(folder.path()), meshes::InvalidInput);
+  EXPECT_THROW(studies::report::write_report(folder.path() / "absent"), meshes::InvalidInput);
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 /// "places: rules" of everything that is wrong with the run.
 std::string damage_of(const fs::path& run) {
   std::string text;
-  for (const meshes::Violation& violation : studies::write_report(run))
+  for (const meshes::Violation& violation : studies::report::write_report(run))
     text += to_string(violation) + "\n";
   return text;
 }
@@ -274,7 +277,7 @@ TEST(Report, SaysSoWhenGnuplotIsMissingAndKeepsTheOldReport) {
   setenv("PATH", "/nonexistent", 1);
   std::string message;
   try {
-    studies::write_report(run.path);
+    studies::report::write_report(run.path);
   } catch (const std::runtime_error& error) {
     message = error.what();
   }
@@ -286,7 +289,7 @@ TEST(Report, SaysSoWhenGnuplotIsMissingAndKeepsTheOldReport) {
 
 TEST(VerdictText, IsPlainAsciiWithTheSameNumbers) {
   SyntheticRun run;
-  const std::string text = studies::verdict_text(run.path);
+  const std::string text = studies::report::verdict_text(run.path);
   for (char c : text) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << int(c);
   for (const char* part : {"published", "central", "hookean", "8.82", "14.01", "+100.0 %",
                            "-10.0 %", "197.2 mN", "met "}) {
@@ -318,7 +321,7 @@ TEST(Units, AreThoseOfTheTable) {
 TEST(Units, OfTheRunAreThePagesUnlessOthersAreAskedFor) {
   SyntheticRun run;
   const auto text = [&](std::optional<studies::UnitSystem> units) {
-    studies::write_report(run.path, units);
+    studies::report::write_report(run.path, units);
     return report_testing::visible_text(read_text(run.path / "report.html"));
   };
   const auto axes = [&] {
@@ -342,7 +345,7 @@ TEST(Units, OfTheRunAreThePagesUnlessOthersAreAskedFor) {
 }
 
 TEST(Format, TellsSiBesideThePapersUnits) {
-  using namespace studies::reporting;
+  using namespace studies::report;
   EXPECT_EQ(stress(3922.66), "3.923\u00a0kPa");
   EXPECT_EQ(length(0.003), "3\u00a0mm");
   EXPECT_EQ(si_note(0.1, "N"), "");

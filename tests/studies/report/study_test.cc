@@ -91,7 +91,7 @@ fs::path write_study(const TemporaryFolder& folder, const std::string& title = "
 TEST(StudyReport, ShowsThePressesAndNothingOfTheCoreCase) {
   const TemporaryFolder folder;
   const fs::path run = write_study(folder);
-  studies::write_report(run);
+  studies::report::write_report(run);
   const std::string html = read_text(run / "report.html");
   EXPECT_TRUE(report_testing::structure_faults(html).empty());
   EXPECT_TRUE(report_testing::outside_references(html).empty());
@@ -114,9 +114,9 @@ TEST(StudyReport, ShowsThePressesAndNothingOfTheCoreCase) {
 TEST(StudyReport, TextIsPlainAndEscaped) {
   const TemporaryFolder folder;
   const fs::path run = write_study(folder, "<script>alert('x')</script> {{page_title}}");
-  studies::write_report(run);
+  studies::report::write_report(run);
   EXPECT_FALSE(has(report_testing::without_own_scripts(read_text(run / "report.html")), "<script"));
-  const std::string text = studies::verdict_text(run);
+  const std::string text = studies::report::verdict_text(run);
   for (const char c : text) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << int(c);
   EXPECT_TRUE(has(text, "4.00 %")) << text;
   EXPECT_TRUE(has(text, "-40.00 %")) << text;
@@ -131,7 +131,7 @@ TEST(StudyReport, PressThatStoppedLeavesGaps) {
       "stopped,R/9,9,hookean,small,frictionless,0.25,0.001,continuum/1,0.001,,0.003,0.002,,,,"
       "\"not converged: at 0.1 cm, why\"\n";
   write_file(run / "variants.csv", rows);
-  studies::write_report(run);
+  studies::report::write_report(run);
   const std::string text = report_testing::visible_text(read_text(run / "report.html"));
   EXPECT_TRUE(has(text, "not converged: at 0.1 cm, why")) << text;
   EXPECT_FALSE(has(text, " nan"));
@@ -159,7 +159,7 @@ TEST(StudyReport, WithoutAnAbscissaEverySeriesHasItsFigure) {
   const TemporaryFolder folder;
   const fs::path run = write_study(folder);
   empty_column(run, 2);
-  studies::write_report(run);
+  studies::report::write_report(run);
   const std::string text = report_testing::visible_text(read_text(run / "report.html"));
   const std::size_t first = text.find("Force error against indentation: second order."),
                     second = text.find("Force error against indentation: other.");
@@ -174,7 +174,7 @@ TEST(StudyReport, AnOrderWithoutErrorsIsNotTold) {
   const TemporaryFolder folder;
   const fs::path run = write_study(folder);
   empty_column(run, 13);
-  studies::write_report(run);
+  studies::report::write_report(run);
   const std::string text = report_testing::visible_text(read_text(run / "report.html"));
   EXPECT_TRUE(has(text, "No press got far enough to be compared.")) << text;
   EXPECT_FALSE(has(text, "Convergence.")) << text;

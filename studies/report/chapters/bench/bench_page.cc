@@ -11,7 +11,7 @@
 #include "studies/report/page/words.h"
 #include "studies/report/results/run_data.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline bench {
 namespace {
 
 /// Worst error that counts as accurate [%], and the factor from which on a press is in real time.
@@ -291,4 +291,4 @@ Page bench_page(const std::filesystem::path& run_folder, FolderReader& reader) {
   return page;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline bench

@@ -6,10 +6,10 @@
 #include "studies/files/folder_reader.h"
 #include "studies/report/page/document.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline bench {
 
 /// From bench.json. What is damaged is left out and noted in
 /// `reader`.
 Page bench_page(const std::filesystem::path& run_folder, FolderReader& reader);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline bench

@@ -6,11 +6,11 @@
 #include <functional>
 #include <map>
 
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/continuum/continuum_chapters.h"
 #include "studies/report/chapters/continuum/continuum_figures.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline continuum {
 namespace {
 
 /// One depth of the press on all meshes that computed it, coarse to fine.
@@ -350,4 +350,4 @@ Chapter continuum_chapter(const RunData& run) {
   return written(std::move(chapter));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline continuum

@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/continuum/continuum_chapters.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline continuum {
 namespace {
 
 /// So far below the theory's order an observed one still counts as it, and as near to it.
@@ -396,4 +396,4 @@ Chapter verification_chapter(const RunData& run) {
   return written(std::move(chapter));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline continuum

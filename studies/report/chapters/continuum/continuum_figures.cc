@@ -9,7 +9,7 @@
 
 #include "meshes/shape/geometry.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline continuum {
 namespace {
 
 constexpr std::size_t most_shown = 6;  ///< curves that a reader tells apart
@@ -339,4 +339,4 @@ Figure pressure_figure(const RunData& run) {
   return {"pressure", 760, 430, 1, {panel}};
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline continuum

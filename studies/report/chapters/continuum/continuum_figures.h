@@ -11,7 +11,7 @@
 #include "studies/report/page/document.h"
 #include "studies/report/results/run_data.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline continuum {
 
 /// A rectangle of the section, in the units shown; a NaN bound does not bind.
 struct Window {
@@ -64,4 +64,4 @@ Figure mesh_figure(const RunData& run);
 /// Pressure over radius, with Hertz's at the same indentation where it is known.
 Figure pressure_figure(const RunData& run);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline continuum

@@ -8,7 +8,7 @@
 #include "studies/report/page/document.h"
 #include "studies/report/results/calibration_data.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline fit {
 
 /// Several fits side by side; then chapters of each fit: quality; what was measured; parameters;
 /// the machine; what the data determine; moduli and surrogate. Those without files have no blocks.
@@ -36,4 +36,4 @@ std::string calibration_text(const CalibrationData& data);
 /// What these chapters look for in vain.
 std::vector<NotRun> missing_fit_parts(const CalibrationData& data);
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline fit

@@ -11,7 +11,7 @@
 #include "studies/report/figure/format.h"
 #include "studies/report/figure/modulus_surfaces.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
 using calibration::SurrogateRow;
@@ -374,4 +374,4 @@ Figure transfer_figure(const CalibrationData& data) {
   return figure;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline fit

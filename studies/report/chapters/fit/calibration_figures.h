@@ -7,7 +7,7 @@
 #include "studies/report/figure/figure.h"
 #include "studies/report/results/calibration_data.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline fit {
 
 /// Measured against fitted curves, the residuals beneath: those whose squares are chi-square, or in
 /// per cent of what was measured where no sigma is given. One figure for each pair of quantities
@@ -40,4 +40,4 @@ Figure transfer_figure(const CalibrationData& data);
 /// (CurveFitOptions::relative_singular_value).
 inline constexpr double open_share = 0.02;
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline fit

@@ -11,7 +11,7 @@
 #include "studies/report/chapters/fit/calibration_figures.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
 Cell words(const std::string& text) {
@@ -248,4 +248,4 @@ std::vector<NotRun> missing_fit_parts(const CalibrationData& data) {
   return missing;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline fit

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
+#include "studies/report/chapters/fit/law_chapter.h"
 #include "studies/report/page/words.h"
-#include "studies/report/results/law_chapter.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
 using calibration::LawDataRow;
@@ -276,4 +276,4 @@ std::vector<NotRun> missing_law_parts(const LawResult& result) {
   return missing;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline fit

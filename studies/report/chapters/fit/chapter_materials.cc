@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/report/chapters/fit/materials_chapter.h"
 #include "studies/report/page/words.h"
-#include "studies/report/results/materials_chapter.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
 using calibration::LawDataRow;
@@ -209,4 +209,4 @@ std::string materials_text(const MaterialsData& data) {
          "measured over predicted\n";
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline fit

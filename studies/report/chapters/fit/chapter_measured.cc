@@ -10,7 +10,7 @@
 #include "studies/report/chapters/fit/calibration_figures.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
 using calibration::AccusationEntry;
@@ -298,4 +298,4 @@ std::vector<Chapter> measured_chapters(const Fit& fit, const std::string& prefix
   return chapters;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline fit

@@ -10,7 +10,7 @@
 #include "studies/report/chapters/fit/calibration_figures.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
 using calibration::DirectionEntry, calibration::MinimumEntry;
@@ -289,4 +289,4 @@ std::string estimate_words(const FitParameter& parameter) {
   return text;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline fit

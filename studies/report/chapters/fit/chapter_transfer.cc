@@ -8,7 +8,7 @@
 #include "studies/report/chapters/fit/calibration_figures.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
 /// What kept a prediction from its deepest samples; empty when nothing did.
@@ -150,4 +150,4 @@ std::string calibration_text(const CalibrationData& data) {
   return text;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline fit

@@ -10,7 +10,7 @@
 #include "studies/report/chapters/fit/calibration_figures.h"
 #include "studies/report/figure/contours.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
 struct Level {
@@ -183,4 +183,4 @@ Figure profile_figure(const Fit& fit, const std::string& prefix) {
   return figure;
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline fit

@@ -6,11 +6,11 @@
 #include <functional>
 #include <map>
 
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 #include "studies/report/results/moving_press.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 constexpr double speed_limit = 1.0;      ///< tolerated deviation from the commanded speed [%]
@@ -294,4 +294,4 @@ Chapter control_chapter(const RunData& run) {
   return control_chapter(presses_of_models(run));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline press

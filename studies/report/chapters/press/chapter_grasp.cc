@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 #include "studies/report/results/grasp_run.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 using lattice::GraspRow, lattice::GripPhase;
@@ -307,4 +308,4 @@ Chapter grasp_chapter(const std::vector<GraspRun>& grasps) {
   return written(std::move(chapter));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline press

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 #include "studies/report/results/moving_press.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 /// What stands before the comma of "symplectic-euler, 1 us", and after it.
@@ -121,4 +121,4 @@ Chapter integrators_chapter(const std::vector<MovingPress>& presses) {
   return written(std::move(chapter));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline press

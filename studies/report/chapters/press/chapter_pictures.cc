@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/report/chapters/chapters.h"
 #include "studies/report/chapters/continuum/continuum_figures.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 /// All panels show the rod's frame with the pole below.
@@ -138,4 +138,4 @@ Chapter pictures_chapter(const RunData& run) {
   return written(std::move(chapter));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline press

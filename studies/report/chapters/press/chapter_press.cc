@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 const std::string above = "outside top center horizontal";
@@ -148,4 +148,4 @@ Chapter force_chapter(const RunData& run) {
   return written(std::move(chapter));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline press

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
-std::string seconds(double time) {
+std::string in_seconds(double time) {
   return std::isnan(time) ? "–" : fmt::format("{:.4g}", time);
 }
 
@@ -61,7 +61,7 @@ Table stage_table(const std::vector<StageEntry>& stages) {
          plain(stage.holds()             ? "hold"
                : std::isnan(stage.speed) ? "–"
                                          : number(units.speed(stage.speed))),
-         plain(seconds(stage.begin)), plain(seconds(stage.end)), force(stage.begin_force),
+         plain(in_seconds(stage.begin)), plain(in_seconds(stage.end)), force(stage.begin_force),
          force(stage.end_force),
          plain(std::isnan(stage.relaxation) ? "–" : percent_magnitude(stage.relaxation))});
   }
@@ -86,4 +86,4 @@ Chapter program_chapter(const meshes::PressResponse& response, const PressFiles&
   return written(std::move(chapter));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline press

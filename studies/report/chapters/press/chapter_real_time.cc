@@ -1,10 +1,10 @@
 /// A press that was to keep up with time: what was chosen on that machine, and what it costs.
 #include <fmt/format.h>
 
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 Table trial_table(const RealTimeRecord& record) {
@@ -53,4 +53,4 @@ Chapter real_time_chapter(const RealTimeRecord& record) {
   return written(std::move(chapter));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline press

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "studies/files/mode_table.h"
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 /// Rows of a table that a reader takes in; the figure and its CSV have every sample.
@@ -312,4 +312,4 @@ std::string modes_answer(const std::vector<VibrationMode>& modes) {
   return sentences("answer_modes", words);
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline press

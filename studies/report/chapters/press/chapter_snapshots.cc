@@ -10,12 +10,12 @@
 #include "meshes/press/fields.h"
 #include "meshes/press/obstacle.h"
 #include "meshes/shape/geometry.h"
-#include "studies/report/chapters/chapters.h"
 #include "studies/report/chapters/continuum/continuum_figures.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 #include "studies/report/results/moving_press.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 using meshes::Vector3;
@@ -313,4 +313,4 @@ Chapter snapshots_chapter(const RunData& run) {
   return snapshots_chapter(presses_of_models(run));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline press

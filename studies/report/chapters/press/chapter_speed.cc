@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 #include "studies/report/results/moving_press.h"
 
-namespace fingertip::studies::reporting {
+namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 bool has_reference(const MovingPress& press) {
@@ -109,4 +109,4 @@ Chapter speed_chapter(const std::vector<MovingPress>& presses) {
   return written(std::move(chapter));
 }
 
-}  // namespace fingertip::studies::reporting
+}  // namespace fingertip::studies::report::inline chapters::inline press

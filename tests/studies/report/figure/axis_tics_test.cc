@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace fingertip::studies::reporting;
+using namespace fingertip::studies::report;
 
 namespace {
 

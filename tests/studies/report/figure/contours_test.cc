@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace fingertip::studies::reporting;
+using namespace fingertip::studies::report;
 
 template <class Function>
 GridFunction sampled(int n, const Function& function) {

@@ -10,7 +10,7 @@
 namespace {
 
 using fingertip::studies::shown_units;
-using fingertip::studies::reporting::number_with_error;
+using fingertip::studies::report::number_with_error;
 
 TEST(Format, AForceEndsWhereItsErrorBegins) {
   EXPECT_EQ(number_with_error(197.181, 0.59), "197.2");

@@ -4,13 +4,16 @@
 #include <cstdlib>
 #include <regex>
 
-#include "studies/report/chapters/chapters.h"
+#include "studies/report/chapters/continuum/continuum_chapters.h"
+#include "studies/report/chapters/models/model_chapters.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/document.h"
+#include "studies/report/report_parts.h"
 #include "tests/temporary_folder.h"
 
 namespace {
 
-using namespace fingertip::studies::reporting;
+using namespace fingertip::studies::report;
 
 /// Prints `page` and counts the sheets; 0 where Chromium does not print.
 std::ptrdiff_t sheets(const Page& page) {

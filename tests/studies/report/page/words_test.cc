@@ -14,7 +14,7 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace fingertip::studies::reporting;
+using namespace fingertip::studies::report;
 
 /// Everything by which a text could pass for a part of the template.
 const std::string hostile =
@@ -158,7 +158,7 @@ TEST(Report, ShowsHostileTextsAsTheyAre) {
   auto summary = nlohmann::json::parse(read_text(run / "summary.json"));
   summary["description"] = hostile.substr(0, hostile.find('\x1a'));
   write_text(run / "summary.json", summary.dump());
-  fingertip::studies::write_report(run);
+  fingertip::studies::report::write_report(run);
   const std::string html = read_text(run / "report.html");
   EXPECT_NE(html.find("<h2>Verdict</h2>"), std::string::npos);
   EXPECT_EQ(html.find("<h2>No title</h2>"), std::string::npos);

@@ -30,9 +30,9 @@ using report_testing::write_file;
 /// "place: rule" of everything that is wrong with a run, without its page.
 std::string damage_of(const fs::path& run) {
   FolderReader reader;
-  const reporting::RunData data = reporting::read_run(run, reader);
-  reporting::read_calibration(data, reader);
-  if (fs::exists(run / "grasp.csv")) reporting::read_grasp(run, "", "grasp", reader);
+  const report::RunData data = report::read_run(run, reader);
+  report::read_calibration(data, reader);
+  if (fs::exists(run / "grasp.csv")) report::read_grasp(run, "", "grasp", reader);
   std::string text;
   for (const meshes::Violation& violation : reader.damage()) text += to_string(violation) + "\n";
   return text;
@@ -242,7 +242,7 @@ TEST_F(Fields, ThePageListsThem) {
   json manifest = json::parse(changed.text());
   manifest.erase("started");
   changed.become(manifest.dump());
-  write_report(run_);
+  report::write_report(run_);
   const std::string page = report_testing::visible_text(read_text(run_ / "report.html"));
   EXPECT_NE(page.find("manifest.json, started"), page.npos);
   EXPECT_NE(page.find("is missing"), page.npos);

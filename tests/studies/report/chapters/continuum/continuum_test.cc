@@ -28,7 +28,7 @@ class ContinuumReport : public testing::Test {
   ContinuumReport() { report_testing::write_synthetic_run(run_); }
 
   std::string report() const {
-    studies::write_report(run_);
+    studies::report::write_report(run_);
     return read_text(run_ / "report.html");
   }
   /// What a reader sees of one chapter, "" when it is missing.
@@ -308,7 +308,7 @@ TEST_F(ContinuumReport, VerificationIsNamedWhenNotRunAndShownWhenPartial) {
   EXPECT_FALSE(has(html, "<b>one"));
   EXPECT_TRUE(report_testing::structure_faults(html).empty());
   write_file(run_ / "verification" / "verification.json", "{\"studies\": [");
-  const studies::Damages damage = studies::write_report(run_);
+  const studies::report::Damages damage = studies::report::write_report(run_);
   ASSERT_EQ(damage.size(), 1U);
   EXPECT_TRUE(has(damage.front().key, "verification.json:1:14")) << damage.front().key;
   EXPECT_TRUE(has(visible_text(read_text(run_ / "report.html")), "verification.json:1:14"));

@@ -38,7 +38,7 @@ class FitReport : public testing::Test {
     return written();
   }
   std::string written() const {
-    studies::write_report(run_);
+    studies::report::write_report(run_);
     const std::string html = read_text(run_ / "report.html");
     const auto faults = report_testing::structure_faults(html);
     EXPECT_TRUE(faults.empty()) << faults.front();
@@ -77,7 +77,7 @@ TEST_F(FitReport, ConditionsHaveTheUnitsAskedFor) {
     result["curves"][0]["condition"] = "frictionless, ball of 0.006 m, lateral 0.0005 m";
   });
   const auto text = [&](studies::UnitSystem units) {
-    studies::write_report(run_, units);
+    studies::report::write_report(run_, units);
     return visible_text(read_text(run_ / "report.html"));
   };
   EXPECT_TRUE(has(text(studies::UnitSystem::si), "frictionless, ball of 6 mm, lateral 0.5 mm"));
@@ -458,7 +458,7 @@ TEST_F(FitReport, OddEntriesAreNotFatal) {
     EXPECT_FALSE(report(oddities[i]).empty());
   }
   report_testing::write_file(run_ / "calibration.json", "{\"problem\": ");
-  const studies::Damages damage = studies::write_report(run_);
+  const studies::report::Damages damage = studies::report::write_report(run_);
   ASSERT_FALSE(damage.empty());
   EXPECT_TRUE(has(damage.front().key, "calibration.json:1:")) << damage.front().key;
 }
@@ -475,7 +475,7 @@ TEST_F(FitReport, TextFromFilesIsEscaped) {
 
 TEST_F(FitReport, AFolderWithoutAProblemIsRefused) {
   report_testing::write_file(run_ / "calibration.json", "{\"model\": \"hookean\"}");
-  const auto damage = studies::write_report(run_);
+  const auto damage = studies::report::write_report(run_);
   ASSERT_FALSE(damage.empty());
   EXPECT_NE(damage[0].key.find("calibration.json"), std::string::npos) << damage[0].key;
 }

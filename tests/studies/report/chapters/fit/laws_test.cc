@@ -83,7 +83,7 @@ class LawsReport : public testing::Test {
     write_text(run_ / "manifest.json", "{\"verb\": \"calibrate\", \"units\": \"si\"}");
   }
   std::string report() const {
-    studies::write_report(run_);
+    studies::report::write_report(run_);
     const std::string html = read_text(run_ / "report.html");
     const auto faults = report_testing::structure_faults(html);
     EXPECT_TRUE(faults.empty()) << faults.front();
@@ -162,7 +162,7 @@ TEST_F(LawsReport, ACaseShowsItsFitsSideBySide) {
   EXPECT_TRUE(has(csv, "rubber: neo-hookean+prony-1,\"tension, measured\"")) << csv.substr(0, 400);
   EXPECT_TRUE(has(csv, "\"tension, predicted\""));
   EXPECT_FALSE(has(csv, "loops"));
-  const std::string table = studies::verdict_text(run_);
+  const std::string table = studies::report::verdict_text(run_);
   EXPECT_TRUE(has(table, "rubber, a branch") && has(table, "33 %")) << table;
   fs::remove(fit / "laws.json");
   EXPECT_TRUE(has(report_testing::visible_text(report()), "materials/a/laws/laws.json"));
@@ -173,7 +173,7 @@ TEST_F(LawsReport, NamesWhatIsMissingOrDamaged) {
   EXPECT_TRUE(has(report_testing::visible_text(report()), "law_data.csv"));
   write_text(run_ / "laws.json", "{\"problem\": \"material\"");
   bool told = false;
-  for (const auto& damage : studies::write_report(run_))
+  for (const auto& damage : studies::report::write_report(run_))
     told = told || has(damage.key + damage.value + damage.rule, "laws.json");
   EXPECT_TRUE(told);
 }

@@ -24,7 +24,7 @@ class TransferReport : public testing::Test {
   TransferReport() { report_testing::write_transfer_study(run_); }
 
   std::string report() const {
-    studies::write_report(run_);
+    studies::report::write_report(run_);
     const std::string html = read_text(run_ / "report.html");
     const auto faults = report_testing::structure_faults(html);
     EXPECT_TRUE(faults.empty()) << faults.front();
@@ -94,7 +94,7 @@ TEST_F(TransferReport, FitsAreFoundWithoutTheSummary) {
 }
 
 TEST_F(TransferReport, TextIsPlain) {
-  const std::string text = studies::verdict_text(run_);
+  const std::string text = studies::report::verdict_text(run_);
   for (const char c : text) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << int(c);
   for (const char* part : {"youngs_modulus", "4 kPa", "25.00 %", "met     carries"})
     EXPECT_TRUE(has(text, part)) << part << "\n" << text;

@@ -9,6 +9,7 @@
 #include "meshes/tables/csv_table.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/report.h"
 #include "studies/report/results/moving_press.h"
 #include "tests/studies/report/page_check.h"
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace fingertip;
-using namespace studies::reporting;
+using namespace studies::report;
 using nlohmann::json;
 using report_testing::write_file;
 
@@ -135,7 +136,7 @@ TEST(ControlReport, OvershootAndChangesOfModeAreThoseOfTheTrace) {
 TEST(ControlReport, ShowsSpeedsSideBySideSnapshotsAndForceControl) {
   const TemporaryFolder folder;
   const fs::path run = write_run(folder);
-  studies::write_report(run);
+  studies::report::write_report(run);
   const std::string html = read_text(run / "report.html");
   EXPECT_EQ(report_testing::structure_faults(html), std::vector<std::string>());
   EXPECT_EQ(report_testing::outside_references(html), std::vector<std::string>());
@@ -159,7 +160,7 @@ TEST(ControlReport, APartOfATipHasNoTilt) {
   const auto shown = [&](int sectors) {
     const fs::path press = folder.path() / std::to_string(sectors);
     write_press(press, 0.01, false, sectors);
-    studies::write_report(press);
+    studies::report::write_report(press);
     return std::pair(report_testing::visible_text(read_text(press / "report.html")),
                      read_text(press / "figures/tracking.csv"));
   };
@@ -175,7 +176,7 @@ TEST(ControlReport, APartOfATipHasNoTilt) {
 TEST(ControlReport, SnapshotsHideTheBackOfTheTip) {
   const TemporaryFolder folder;
   const fs::path run = write_run(folder);
-  studies::write_report(run);
+  studies::report::write_report(run);
   const meshes::CsvTable points = fingertip::meshes::read_csv(run / "figures/snapshots_1.csv");
   const auto series = points.texts("series");
   const auto drawn = std::ranges::count(series, "springs") / 3;
@@ -213,7 +214,7 @@ TEST(ControlReport, SnapshotsShowNoTorqueOfNoiseAndNoForceTallerThanAPad) {
     pad += fmt::format("{0},{1},{2},{0},{1},{2},0\n", x, y, z);
   }
   write_file(press / "boundary.csv", pad);
-  studies::write_report(press);
+  studies::report::write_report(press);
   EXPECT_TRUE(has(read_text(press / "figures/snapshots_1.svg"), "torque 0 "));
   const meshes::CsvTable points = meshes::read_csv(press / "figures/snapshots_1.csv");
   const auto series = points.texts("series");
@@ -239,7 +240,7 @@ TEST(ControlReport, AComparisonOfPressesInTimeShowsThemUnderControl) {
       response += fmt::format("{},{},0,0,0,0,0,,,,0\n", depth, 100.0 * depth);
     write_file(runs.back() / "response.csv", response);
   }
-  studies::write_comparison(runs, folder / "out");
+  studies::report::write_comparison(runs, folder / "out");
   EXPECT_TRUE(has(read_text(folder / "out/comparison.html"), "<section id=\"control\">"));
   EXPECT_TRUE(fs::exists(folder / "out/figures/tracking.svg"));
 }
@@ -247,7 +248,7 @@ TEST(ControlReport, AComparisonOfPressesInTimeShowsThemUnderControl) {
 TEST(ControlReport, APressAloneHasItsControlAndSnapshots) {
   const TemporaryFolder folder;
   const fs::path press = write_run(folder) / "presses/1 cm/s";
-  studies::write_report(press);
+  studies::report::write_report(press);
   const std::string html = read_text(press / "report.html");
   for (const char* chapter : {"control", "snapshots"})
     EXPECT_TRUE(has(html, fmt::format("<section id=\"{}\">", chapter))) << chapter;
@@ -285,7 +286,7 @@ TEST(ControlReport, APressAtRestHasSnapshotsWithoutTimes) {
   contact[0].pressure = 73e3, contact[1].pressure = 20e3;
   contact[1].deformed.x() = 1e-3;
   meshes::write_rows(contact, press / "contact.csv");
-  EXPECT_TRUE(studies::write_report(press).empty());
+  EXPECT_TRUE(studies::report::write_report(press).empty());
   const std::string drawn = read_text(press / "figures/contact_pressure.csv");
   for (const char* end : {"peak pressure as told,0,39.5\n", "peak pressure as told,4,39.5\n"})
     EXPECT_TRUE(has(drawn, end)) << drawn;
@@ -296,7 +297,7 @@ TEST(ControlReport, APressAtRestHasSnapshotsWithoutTimes) {
   EXPECT_TRUE(has(svg, "end"));
   EXPECT_FALSE(has(svg, "nan"));
   fs::remove(press / "snapshots.csv");
-  EXPECT_TRUE(studies::write_report(press).empty()) << "as runs of earlier versions have it";
+  EXPECT_TRUE(studies::report::write_report(press).empty());
   EXPECT_FALSE(has(read_text(press / "report.html"), "<section id=\"snapshots\">"));
 }
 
@@ -332,7 +333,7 @@ TEST(IntegratorReport, ShowsCostAgainstErrorAndNoControl) {
                                         {"criteria", json::array()},
                                         {"presses", presses}}
                                        .dump());
-  studies::write_report(run);
+  studies::report::write_report(run);
   const std::string html = read_text(run / "report.html");
   EXPECT_EQ(report_testing::structure_faults(html), std::vector<std::string>());
   EXPECT_TRUE(has(html, "<section id=\"integrators\">"));
@@ -343,5 +344,5 @@ TEST(IntegratorReport, ShowsCostAgainstErrorAndNoControl) {
             (std::vector<double>{500.0, 1000.0}));
   EXPECT_TRUE(has(report_testing::visible_text(html),
                   "the force of symplectic-euler, 2 us comes closest, within 0.10 %"));
-  EXPECT_TRUE(has(studies::verdict_text(run), "0.2000 %"));
+  EXPECT_TRUE(has(studies::report::verdict_text(run), "0.2000 %"));
 }

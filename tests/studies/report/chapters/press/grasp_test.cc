@@ -8,6 +8,7 @@
 #include "meshes/tables/csv_table.h"
 #include "meshes/tables/fields_json.h"
 #include "studies/files/grasp_summary.h"
+#include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/report.h"
 #include "studies/report/results/grasp_run.h"
 #include "tests/studies/report/page_check.h"
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace fingertip;
-using namespace studies::reporting;
+using namespace studies::report;
 using nlohmann::json;
 using report_testing::write_file;
 
@@ -92,7 +93,7 @@ fs::path write_run(const TemporaryFolder& folder) {
 TEST(GraspReport, ShowsFateReleaseFrictionAndTime) {
   const TemporaryFolder folder;
   const fs::path run = write_run(folder);
-  studies::write_report(run);
+  studies::report::write_report(run);
   const std::string html = read_text(run / "report.html");
   EXPECT_EQ(report_testing::structure_faults(html), std::vector<std::string>());
   EXPECT_EQ(report_testing::outside_references(html), std::vector<std::string>());
@@ -107,13 +108,13 @@ TEST(GraspReport, ShowsFateReleaseFrictionAndTime) {
       << text.substr(0, 900);
   EXPECT_TRUE(has(text, "the strongest that does not by −0.98 %"));
   EXPECT_TRUE(has(text, "begins to slip at m g/(2 mu) +1.2 %"));
-  EXPECT_TRUE(has(studies::verdict_text(run), "s, weak"));
+  EXPECT_TRUE(has(studies::report::verdict_text(run), "s, weak"));
 }
 
 TEST(GraspReport, FigureOfReleaseIsGripAgainstSlip) {
   const TemporaryFolder folder;
   const fs::path run = write_run(folder);
-  studies::write_report(run);
+  studies::report::write_report(run);
   const meshes::CsvTable figure = fingertip::meshes::read_csv(run / "figures/grasp_release.csv");
   const auto slip = figure.numbers("slip of the block along the fingers [mm]");
   const auto force = figure.numbers("grip force per finger [mN]");
@@ -127,7 +128,7 @@ TEST(GraspReport, FigureOfReleaseIsGripAgainstSlip) {
 TEST(GraspReport, AGraspAloneHasItsPage) {
   const TemporaryFolder folder;
   const fs::path grasp = write_run(folder) / "grasps/released";
-  studies::write_report(grasp);
+  studies::report::write_report(grasp);
   const std::string html = read_text(grasp / "report.html");
   EXPECT_TRUE(has(html, "<section id=\"grasp\">"));
   EXPECT_FALSE(has(html, "id=\"not-run\""));
@@ -141,7 +142,7 @@ TEST(GraspReport, WithoutCoulombsFrictionThereIsNoLimit) {
   json summary = json::parse(read_text(grasp / "summary.json"));
   for (const char* key : {"friction", "least_force", "least_force_at_rest"}) summary[key] = 0.0;
   write_file(grasp / "summary.json", summary.dump());
-  studies::write_report(grasp);
+  studies::report::write_report(grasp);
   const std::string text = report_testing::visible_text(read_text(grasp / "report.html"));
   EXPECT_TRUE(has(text, "The block was held."));
   EXPECT_FALSE(has(text, "inf"));

@@ -1,0 +1,207 @@
+#include "studies/cli/command_line/real_time.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lattice/press/setup_fields.h"
+#include "meshes/base/cannot_write.h"
+#include "meshes/tables/fields_json.h"
+#include "studies/cli/command_line/run_verb.h"
+#include "studies/config/asked_units.h"
+#include "studies/exchange/contact_curves.h"
+#include "studies/exchange/transfer.h"
+#include "studies/files/read_fields.h"
+#include "studies/files/shown_units.h"
+#include "studies/jobs/interrupt.h"
+#include "studies/jobs/json_file.h"
+#include "studies/presses/press_job.h"
+#include "studies/presses/press_setup.h"
+
+namespace fingertip::studies::inline cli::inline command_line {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string identity_of(const LoadedConfig& asked) {
+  const Config& config = asked.config;
+  return fmt::format("{}, threads {}{}",
+                     press_job(press_setup(with_material(asked, LatticeUse::press))).key(),
+                     config.press.threads, config.automatic_integrator ? ", any integrator" : "");
+}
+
+RealTimeRecord record_of(const PaceSearch& search) {
+  const PaceCandidate& taken = search.taken();
+  RealTimeRecord record;
+  record.spacing_asked = search.asked().spacing;
+  record.spacing = taken.spacing;
+  record.integrator = lattice::name(taken.integrator);
+  record.step = taken.step;
+  record.threads = taken.threads;
+  record.expected_factor = search.choice.factor;
+  record.tried = search.choice.was_measured;
+  for (const MeasuredPace& trial : search.measured)
+    record.trials.push_back(
+        {trial.candidate.spacing, trial.candidate.step, trial.candidate.threads, trial.factor});
+  return record;
+}
+
+/// What an earlier run of the same command chose.
+std::optional<RealTimeRecord> kept_record(const CommandLine& line, const std::string& asked) {
+  const fs::path file = line.out / real_time_name;
+  if (!line.resume || line.out.empty() || !fs::exists(file)) return {};
+  auto record = struct_of<RealTimeRecord>(read_entry(file));
+  if (record.asked != asked) return {};
+  return record;
+}
+
+PaceCandidate candidate_of(const RealTimeRecord& record) {
+  PaceCandidate taken;
+  taken.spacing = record.spacing;
+  taken.step = record.step;
+  const auto integrator = meshes::enumerator<lattice::Integrator>(record.integrator);
+  if (!integrator)
+    throw meshes::InvalidInput(
+        {real_time_name, record.integrator, "is no integrator", "start again without --resume"});
+  taken.integrator = *integrator;
+  return taken;
+}
+
+std::string spelt(double spacing, const meshes::Geometry& geometry) {
+  return fmt::format("{} (tip_radius/{:.4g})", shown_units().length.text(spacing),
+                     geometry.tip_radius / spacing);
+}
+
+std::string step_text(double step) {
+  return step < 1e-3 * (1.0 - 1e-9) ? fmt::format("{:.3g} us", 1e6 * step)
+                                    : fmt::format("{:.3g} ms", 1e3 * step);
+}
+
+/// The press straight down whose continuum takes seconds; its strain is the lattice's where none
+/// is asked for.
+LoadedConfig pressed_straight(LoadedConfig loaded) {
+  std::vector<std::string> sets;
+  for (const char* key : {"press.tilt", "press.lateral", "press.program"})
+    loaded.entries.at(key).given = false;
+  if (!loaded.entries.at("reference.strain").given &&
+      loaded.config.press.lattice.kinematics == lattice::Kinematics::small)
+    sets.emplace_back("reference.strain=linear");
+  return with_sets(loaded, sets);
+}
+
+ForetoldModel this_press(const meshes::PressResponse& response) {
+  return by_law("this press", [&response](const ContactCurve&, double depth) {
+    return depth <= response.depth() * (1.0 + 1e-6)
+               ? response.normal_force_at(std::min(depth, response.depth()))
+               : meshes::unknown;
+  });
+}
+
+std::string errors_text(const TransferObstacleEntry& errors) {
+  const ShownUnit& length = shown_units().length;
+  std::string text = fmt::format("{:<18}", length.label("indentation"));
+  for (const double depth : errors.indentation)
+    text += fmt::format("{:>10}", length.decimals(depth));
+  for (const TransferModelEntry& model : errors.models) {
+    text += fmt::format("\n{:<18}", model.model);
+    for (const double error : model.error)
+      text +=
+          fmt::format("{:>10}", std::isnan(error) ? "?" : fmt::format("{:+.1f} %", 100.0 * error));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+RealTimeRun real_time_run(const CommandLine& line) {
+  watch_for_interrupts();
+  LoadedConfig asked = with_any_integrator(load_checked(line));
+  // In the live view people push the rod wherever they like.
+  if (line.verb == "live") asked = with_sets(asked, {"run.symmetry=false"});
+  if (line.verb == "press" && asked.config.press.protocol.mode == meshes::DriveMode::equilibrium)
+    throw ConfigError(
+        {{"--real-time", "press.mode", "static",
+          "a press in equilibrium has no time to keep up with", "choose pid or quasi-static"}});
+  const std::string identity = identity_of(asked);
+  RealTimeRun run;
+  if (const auto kept = kept_record(line, identity))
+    run.record = *kept;
+  else
+    run.record = record_of(search_pace_here(asked, cores_for(asked)));
+  run.record.asked = identity;
+  run.loaded = with_sets(asked, settings_of(candidate_of(run.record), asked));
+  return run;
+}
+
+std::string RealTimeRun::note() const {
+  const ShowIn units(asked_units(loaded));
+  const meshes::Geometry& geometry = loaded.config.press.geometry;
+  const bool as_asked = same_spacing(record.spacing, record.spacing_asked);
+  return fmt::format(
+      "--real-time: spacing {}{}, {}, steps of {}{}, threads: {}; expected real-time factor in the "
+      "slowest 10 ms: {:.3g}, from {}",
+      spelt(record.spacing, geometry),
+      as_asked ? ", as asked" : " where " + spelt(record.spacing_asked, geometry) + " was asked",
+      record.integrator, loaded.config.press.time_step ? "" : "about ", step_text(record.step),
+      record.threads, record.expected_factor,
+      record.tried ? "a trial with this spacing" : "trials with other spacings");
+}
+
+void RealTimeRun::write(const fs::path& folder) const {
+  meshes::write_json_file(record, folder / real_time_name);
+}
+
+void RealTimeRun::find_force_error(Session& session,
+                                   const std::optional<meshes::PressResponse>& response) {
+  record.force_error.reset();
+  const LoadedConfig straight = pressed_straight(with_material(loaded, LatticeUse::modes));
+  if (!straight.config.reference.axisymmetric()) {
+    record.force_error_of =
+        "not known: the continuum of a finger that is no body of revolution takes long; reference "
+        "and compare tell it";
+    return;
+  }
+  try {
+    const ContactCurves contact(straight, ContactCurves::Of::lattice);
+    std::vector<PlannedJob> jobs = contact.jobs();
+    for (PlannedJob& job : jobs) job.exhibit = true;
+    session.run_all(jobs);
+    const std::vector<ContactCurve> curves = contact.read(session.folder().path());
+    if (curves.front().empty()) {
+      record.force_error_of = "not known: the continuum did not converge";
+      return;
+    }
+    std::vector<ForetoldModel> models = {lattice_at_rest()};
+    const bool is_straight = not_straight(loaded.config.press.protocol).empty();
+    if (response && is_straight) models.push_back(this_press(*response));
+    record.force_error_of =
+        fmt::format("against the continuum at {} strain{}",
+                    straight.config.press.lattice.kinematics == lattice::Kinematics::small &&
+                            !loaded.entries.at("reference.strain").given
+                        ? "small"
+                        : "large",
+                    is_straight ? "" : ", of a press straight to the same depth");
+    record.force_error = transfer_of("", "", {}, curves, models).obstacles.front();
+  } catch (const meshes::Interrupted&) {
+    throw;
+  } catch (const meshes::CannotWrite&) {
+    throw;
+  } catch (const std::exception& error) {
+    record.force_error_of = std::string("not known: ") + error.what();
+  }
+}
+
+std::string RealTimeRun::text() const {
+  std::string text;
+  if (!std::isnan(record.slowest_factor))
+    text += fmt::format("real-time factor {:.3g} in the slowest stretch ({:.3g} expected){}\n",
+                        record.slowest_factor, record.expected_factor,
+                        record.slowest_factor < 1.0 ? ": NOT KEPT UP" : "");
+  text += "force error " + record.force_error_of + "\n";
+  if (record.force_error) text += errors_text(*record.force_error);
+  return text;
+}
+
+}  // namespace fingertip::studies::inline cli::inline command_line

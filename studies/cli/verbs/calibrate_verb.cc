@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "studies/cli/command_line/run_verb.h"
+#include "studies/cli/verbs/fit_screen.h"
+#include "studies/cli/verbs/verbs.h"
+#include "studies/files/read_fields.h"
+#include "studies/files/shown_units.h"
+#include "studies/fits/runs/calibration_stages.h"
+#include "studies/jobs/json_file.h"
+
+namespace fingertip::studies::inline cli::inline verbs {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Stage by stage; a job that is alone gets all threads. Whether anything was computed.
+bool run_stages(CalibrationStages& stages, Session& session) {
+  bool computed = false;
+  const std::filesystem::path& folder = session.folder().path();
+  for (auto jobs = stages.next(folder); !jobs.empty(); jobs = stages.next(folder)) {
+    session.expect_later(stages.later_weight());
+    const auto results =
+        jobs.size() == 1 ? std::vector{session.run(jobs.front())} : session.run_all(jobs);
+    for (const JobResult& result : results) computed = computed || !result.reused;
+  }
+  return computed;
+}
+
+void print_moduli(const ordered_json& content) {
+  const ShownUnit& stress = shown_units().stress;
+  fmt::print("{:<22}{:>14}{:>14}\n", "", "target", "achieved");
+  const auto& target = content["target"];
+  const auto& achieved = content["achieved"];
+  const auto row = [&](const char* name, const char* wanted, const char* reached) {
+    fmt::print("{:<22}{:>14.6g}{:>14.6g}\n", fmt::format("{} [{}]", name, stress.ascii),
+               stress(target[wanted].get<double>()), stress(achieved[reached].get<double>()));
+  };
+  row("E_100", "youngs_modulus", "youngs_modulus_100");
+  row("E_110", "youngs_modulus", "youngs_modulus_110");
+  row("E_111", "youngs_modulus", "youngs_modulus_111");
+  row("G", "shear_modulus", "shear_modulus");
+  row("K", "bulk_modulus", "bulk_modulus");
+  fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "nu_100", target["poissons_ratio"].get<double>(),
+             achieved["poissons_ratio_100"].get<double>());
+  fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "anisotropy A", 1.0,
+             achieved["anisotropy"].get<double>());
+}
+
+void print_parameters(const ordered_json& content) {
+  fmt::print("{:<24}{:>14}{:>14}{:>14}  {}\n", "", "estimate", "95 % from", "to", "unit");
+  const bool ratio_bound = !content.value("poissons_ratio_bound", ordered_json()).is_null();
+  for (const ordered_json& parameter : content["parameters"]) {
+    const std::string si = parameter["unit"];
+    const auto [value, unit] = as_shown(number_of(parameter["estimate"]), si);
+    const double lower = as_shown(number_of(parameter["lower"]), si).first,
+                 upper = as_shown(number_of(parameter["upper"]), si).first;
+    // Where Poisson's ratio has stopped at a bound neither modulus has an interval of its own.
+    const bool open =
+        calibration::is_open(si, value, lower, upper) ||
+        (ratio_bound && si == "Pa" && parameter["name"].get<std::string>() != "modulus");
+    const auto end = [&](double number) {
+      return open ? std::string("open") : fmt::format("{:.6g}", number);
+    };
+    fmt::print("{:<24}{:>14.6g}{:>14}{:>14}  {}\n", parameter["name"].get<std::string>(), value,
+               end(lower), end(upper), unit);
+  }
+}
+
+/// What a press takes: spring constants, or the network's moduli.
+void print_constants(const ordered_json& content) {
+  const auto row = [](const char* name, const ordered_json& number, const char* si) {
+    const auto [value, unit] = as_shown(number_of(number), si);
+    fmt::print("{:<24}{:>14.6g} {}\n", name, value, unit);
+  };
+  const ordered_json& constants = content["constants"];
+  const bool network = content["model"] == "network";
+  fmt::print("\nconstants of the lattice, {}, spacing {}\n", content["model"].get<std::string>(),
+             shown_units().length.text(number_of(content["spacing"])));
+  if (network) {
+    row("E", content["achieved"]["youngs_modulus_100"], "Pa");
+    row("G", constants["G"], "Pa");
+    row("lambda", constants["lambda"], "Pa");
+    return;
+  }
+  for (const char* name : {"k1", "k2", "k3"}) row(name, constants[name], "N/m");
+  row("kappa", constants["kappa"], "Pa");
+}
+
+/// The rubber that measured curves tell.
+void print_rubber(const ordered_json& content) {
+  if (!content.contains("rubber") || content["problem"] == "damping") return;
+  const double e = number_of(content["rubber"]["youngs_modulus"]),
+               g = number_of(content["rubber"]["shear_modulus"]);
+  const ShownUnit& stress = shown_units().stress;
+  fmt::print("\nrubber: E {:.6g} {u}, G {:.6g} {u}, lambda {:.6g} {u}, Poisson's ratio {:.4f}\n",
+             stress(e), stress(g), stress(g * (e - 2.0 * g) / (3.0 * g - e)), 0.5 * e / g - 1.0,
+             fmt::arg("u", stress.ascii));
+}
+
+int verdict_of(const ordered_json& content, bool written) {
+  return verdict(content.value("failed", std::vector<std::string>()),
+                 content.value("converged", true), written);
+}
+
+}  // namespace
+
+int verdict(const std::vector<std::string>& failed, bool converged, bool written) {
+  for (const std::string& reason : failed)
+    fmt::print(stderr, "fingertip: not accepted: {}\n", in_shown_units(reason, Spelling::terminal));
+  if (!failed.empty())
+    fmt::print(stderr, "fingertip: {}\n",
+               written ? "material.toml is written as --force asks, and says so"
+                       : "no material.toml is written; --force writes it all the same");
+  if (!converged) return 3;
+  return failed.empty() ? 0 : 4;
+}
+
+int run_calibrate(const CommandLine& line) {
+  const LoadedConfig loaded = load_checked(line);
+  if (line.plan) return run_plan(line, loaded);
+  if (loaded.config.calibration.problem == CalibrationProblem::material)
+    return run_material(line, loaded);
+  CalibrationStages stages(
+      loaded, "",
+      line.force ? CalibrationStages::Failed::kept : CalibrationStages::Failed::refused);
+  if (!line.quiet)
+    for (const std::string& note : stages.notes())
+      fmt::print(stderr, "fingertip: note: {}\n", note);
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    for (const std::string& note : stages.notes()) session.folder().log(note);
+    const bool computed = run_stages(stages, session);
+    const std::filesystem::path& folder = session.folder().path();
+    const ordered_json content = read_json(folder / "calibration.json");
+    const bool written = std::filesystem::exists(folder / "material.toml");
+    if (line.quiet) return verdict_of(content, written);
+    fmt::print("{}\n\n",
+               in_shown_units(content["statement"].get<std::string>(), Spelling::terminal));
+    if (content.contains("parameters")) {
+      print_parameters(content);
+    } else {
+      print_moduli(content);
+    }
+    print_rubber(content);
+    print_constants(content);
+    if (content.contains("next"))
+      print_next(struct_of<std::vector<calibration::NextEntry>>(
+          JsonEntry(content["next"], folder / "calibration.json")));
+    if (!computed) fmt::print("(result from an earlier run with the same input)\n");
+    fmt::print("run folder: {}\n", folder.string());
+    return verdict_of(content, written);
+  });
+}
+
+}  // namespace fingertip::studies::inline cli::inline verbs

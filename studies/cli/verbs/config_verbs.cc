@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include "meshes/base/files.h"
+#include "studies/cases/case_file.h"
+#include "studies/cli/command_line/shell_texts.h"
+#include "studies/cli/verbs/verbs.h"
+#include "studies/config/documents.h"
+#include "studies/fits/runs/calibration_stages.h"
+#include "studies/fits/runs/law_job.h"
+#include "studies/presses/press_setup.h"
+
+namespace fingertip::studies::inline cli::inline verbs {
+
+namespace {
+
+/// What `calibrate` would note on the data that a configuration names; refuses what it would
+/// refuse.
+std::vector<std::string> notes_on_data(const LoadedConfig& loaded) {
+  const CalibrationSettings& calibration = loaded.config.calibration;
+  if (calibration.problem == CalibrationProblem::material && !calibration.tests.empty())
+    return law_input(loaded).tests.notes;
+  if (calibration.data.empty()) return {};
+  return CalibrationStages(loaded, "", CalibrationStages::Failed::kept).notes();
+}
+
+}  // namespace
+
+int run_check(const CommandLine& line) {
+  std::vector<std::string> files = line.arguments;
+  if (!line.config.file.empty()) files.push_back(line.config.file.string());
+  if (files.empty()) {
+    throw ConfigError({{"check", "", "", "no file is given", "give a configuration file"}});
+  }
+  for (const std::string& file : files) {
+    const Case study_case = load_case(file, line.config);
+    check_all(study_case.loaded);
+    const std::vector<std::string> on_data = notes_on_data(study_case.loaded);
+    if (line.quiet) continue;
+    for (const std::string& note : on_data) fmt::print("{}: note: {}\n", file, note);
+    const LoadedConfig complete = with_material(study_case.loaded, LatticeUse::press);
+    for (const std::string& note : complete.notes) fmt::print("{}: note: {}\n", file, note);
+    // No error: the continuum can do it.
+    const ConfigError located = complete.locate(beyond_the_lattice(complete));
+    for (const Problem& limit : located.problems()) {
+      fmt::print("{}: note: for press and validate: {}\n", file, to_string(limit));
+    }
+    fmt::print("{}: OK\n", file);
+  }
+  return 0;
+}
+
+int run_explain(const CommandLine& line) {
+  if (line.schema) fmt::print("{}", json_schema());
+  if (line.markdown) fmt::print("{}", markdown_reference());
+  if (line.man) fmt::print("{}", man_page());
+  if (line.completion) fmt::print("{}", bash_completion());
+  if (line.schema || line.markdown || line.man || line.completion) return 0;
+  if (line.arguments.empty()) {
+    fmt::print("{}\nfingertip explain section.key tells more about one.\n", key_overview());
+    return 0;
+  }
+  for (const std::string& name : line.arguments) {
+    bool found = false;
+    for (const Key& key : key_table()) {
+      if (key.full_name() != name && key.name != name && key.section != name) continue;
+      fmt::print("{}{}", found ? "\n" : "", explanation(key));
+      found = true;
+    }
+    if (!found) {
+      throw ConfigError({{"explain " + name, "", "", "there is no such key",
+                          "the nearest valid key is " + nearest_key(name)}});
+    }
+  }
+  return 0;
+}
+
+int run_init(const CommandLine& line) {
+  std::filesystem::path file = line.out;
+  if (!line.arguments.empty()) file = line.arguments.front();
+  if (file.empty()) {
+    fmt::print("{}", config_template());
+    return 0;
+  }
+  const auto refuse = [&](const std::string& rule, const std::string& remedy) {
+    throw ConfigError({{"init " + file.string(), "", "", rule, remedy}});
+  };
+  if (std::filesystem::exists(file) && !line.force) {
+    refuse("the file exists already", "choose another name, or say --force to replace it");
+  }
+  try {
+    meshes::write_atomically(file, [](std::ostream& out) { out << config_template(); });
+  } catch (const std::runtime_error& error) {
+    refuse(error.what(), "choose a folder in which you may write");
+  }
+  if (!line.quiet) fmt::print("written: {}\n", file.string());
+  return 0;
+}
+
+}  // namespace fingertip::studies::inline cli::inline verbs

@@ -1,0 +1,371 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "fem_reference/job/run_tables.h"
+#include "meshes/press/press_response.h"
+#include "meshes/tables/table_rows.h"
+#include "studies/cli/command_line/real_time.h"
+#include "studies/cli/command_line/run_verb.h"
+#include "studies/cli/verbs/verbs.h"
+#include "studies/files/mode_table.h"
+#include "studies/files/press_summary.h"
+#include "studies/files/read_fields.h"
+#include "studies/files/shown_units.h"
+#include "studies/jobs/json_file.h"
+#include "studies/jobs/result_files.h"
+#include "studies/presses/modes_job.h"
+#include "studies/presses/press_job.h"
+#include "studies/presses/press_notes.h"
+#include "studies/presses/press_setup.h"
+#include "studies/presses/program_summary.h"
+#include "studies/presses/reference_job.h"
+#include "studies/presses/tracking.h"
+
+namespace fingertip::studies::inline cli::inline verbs {
+
+namespace {
+
+/// A table of samples by `place`: force, error, contact and, with `lateral`, lateral force; no
+/// column that nobody knows.
+void print_samples(std::span<const meshes::PressSample> samples, const char* ordered_by,
+                   double meshes::PressSample::*place, bool lateral) {
+  using Sample = meshes::PressSample;
+  struct Column {
+    std::string title;
+    double Sample::*value;
+    ShownUnit unit;
+  };
+  const ShownUnit &length = shown_units().length, &force = shown_units().force;
+  std::vector<Column> columns{{length.label(ordered_by), place, length},
+                              {force.label("force"), &Sample::normal_force, force},
+                              {force.label("error"), &Sample::force_error, force},
+                              {length.label("contact"), &Sample::contact_radius, length}};
+  if (lateral) columns.push_back({force.label("lateral"), &Sample::lateral_force_x, force});
+  std::erase_if(columns, [&](const Column& column) {
+    return std::ranges::all_of(
+        samples, [&](const Sample& sample) { return std::isnan(sample.*column.value); });
+  });
+  for (const Column& column : columns) fmt::print("{:>14}", column.title);
+  fmt::print("\n");
+  for (const Sample& sample : samples) {
+    for (const Column& column : columns) {
+      const double value = sample.*column.value;
+      fmt::print("{:>14}", std::isnan(value) ? "" : column.unit.decimals(value));
+    }
+    fmt::print("\n");
+  }
+}
+
+/// The curve at the wanted depths, for a terminal.
+void print_depths(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
+  std::vector<meshes::PressSample> wanted;
+  for (const double depth : protocol.samples) {
+    const auto found =
+        std::ranges::find_if(response.pressing(), [&](const meshes::PressSample& sample) {
+          return std::abs(sample.indentation - depth) <= 1e-6 * depth;
+        });
+    if (found != response.pressing().end()) wanted.push_back(*found);
+  }
+  print_samples(wanted, "depth", &meshes::PressSample::indentation,
+                protocol.lateral != 0.0 && !protocol.slides_after());
+}
+
+/// The lateral motion that followed, if one did.
+void print_sliding(const meshes::PressResponse& response) {
+  if (response.sliding().empty()) return;
+  fmt::print("then along the plane at {}:\n", shown_units().length.text(response.depth()));
+  print_samples(response.sliding(), "lateral", &meshes::PressSample::lateral_displacement, true);
+}
+
+void print_response(const std::filesystem::path& folder, const meshes::PressProtocol& protocol) {
+  const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+  print_depths(response, protocol);
+  print_sliding(response);
+}
+
+void print_folder(const Session& session, const JobResult& result) {
+  if (result.reused) {
+    fmt::print("(result from an earlier run with the same input)\n");
+  } else {
+    fmt::print("computed in {:.2f} s\n", result.wall_time);
+  }
+  fmt::print("run folder: {}\n", session.path_of({}).string());
+}
+
+/// "continuum, finite strain (law A), stick contact, static"
+std::string heading(const fem_reference::ReferenceJob& reference) {
+  const bool finite = reference.strain == fem_reference::Strain::finite;
+  std::string text = finite ? fmt::format("continuum, finite strain ({})",
+                                          meshes::describe(reference.rubber.energy))
+                            : std::string("continuum, small strain");
+  if (reference.analysis == fem_reference::Analysis::modes) return text + ", natural frequencies";
+  return fmt::format("{}, {} contact, {}", text, meshes::name(reference.protocol.contact),
+                     fem_reference::name(reference.analysis));
+}
+
+/// Frequencies and kinds of motion: the lattice tells these with the share of mass that moves along
+/// an axis, the continuum by symmetry about x = 0 and y = 0.
+void print_frequencies(const std::filesystem::path& folder) {
+  const auto modes = vibration_modes(meshes::read_csv(folder / "modes.csv"));
+  const bool lattice = !modes.empty() && modes.front().of_lattice;
+  fmt::print("{:>6}{:>18}  {:<32}{}\n", "mode", "frequency [Hz]", "motion",
+             lattice ? "mass that answers across, along the axis" : "");
+  for (const VibrationMode& mode : modes) {
+    fmt::print("{:>6}{:18.4f}  {:<32}{}\n", mode.number, mode.frequency, mode.motion,
+               lattice ? fmt::format("{:.1f} %, {:.1f} %", 100.0 * (mode.mass.x() + mode.mass.y()),
+                                     100.0 * mode.mass.z())
+                       : "");
+  }
+}
+
+/// Largest force_error over normal_force, and where; relative NaN where one is not known.
+struct WorstError {
+  double relative = 0.0, indentation = 0.0;
+};
+WorstError worst_error(const std::filesystem::path& folder) {
+  WorstError worst;
+  const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+  for (const meshes::PressSample& sample : response.samples()) {
+    const double error = std::abs(sample.force_error / sample.normal_force);
+    if (error > worst.relative || std::isnan(error)) worst = {error, sample.indentation};
+    if (std::isnan(error)) break;
+  }
+  return worst;
+}
+
+/// How many meshes it took, and whether the error is as small as wanted.
+void print_accuracy(const std::filesystem::path& folder,
+                    const fem_reference::ReferenceJob& reference) {
+  const WorstError worst = worst_error(folder);
+  if (std::isnan(worst.relative)) return;
+  const bool reached = worst.relative <= reference.tolerance;
+  fmt::print("estimated error of the force: at most {:.3g} % ({:.3g} % wanted{})",
+             100.0 * worst.relative, 100.0 * reference.tolerance,
+             reached ? "" : ", NOT REACHED at " + shown_units().length.text(worst.indentation));
+  if (std::filesystem::exists(folder / "convergence.csv")) {
+    std::size_t unknowns = 0;
+    // Of a run that goes on, its table may be that of an earlier version.
+    const meshes::CsvTable table = meshes::read_csv(folder / "convergence.csv");
+    for (const auto& row : meshes::known_rows<fem_reference::ConvergenceRow>(table))
+      unknowns = std::max(unknowns, row.unknowns);
+    if (unknowns > 0) fmt::print("; finest mesh: {} unknowns", unknowns);
+  }
+  fmt::print("\n");
+}
+
+/// What the controller held: the force, or else the speed, or where one of people's own ended.
+void print_control(const PressSummary& summary) {
+  const TrackingEntry& tracking = summary.tracking;
+  const double held = tracking.held_force, deviation = tracking.force_deviation,
+               speed = tracking.speed_deviation, tilt = tracking.tilt_deg;
+  const bool follows = tracking.follows_path;
+  const ShownUnit& force = shown_units().force;
+  std::string text = "controller:";
+  if (!std::isnan(held)) {
+    text += fmt::format(" contact force {} held ({} wanted", force.text(held),
+                        force.text(tracking.wanted_force));
+    if (!std::isnan(deviation))
+      text += fmt::format(", within {:.2g} % in the last {:.0f} ms", 100.0 * deviation,
+                          1e3 * held_time);
+    text += "),";
+  } else if (follows && !std::isnan(speed)) {
+    text += fmt::format(" speed within {:.2f} %,", 100.0 * speed);
+  }
+  if (const auto& end = summary.end; end && !follows) {
+    text += fmt::format(" {} at {} at the end ({:.3g} s),", force.text(end->normal_force),
+                        shown_units().length.text(end->indentation), end->time);
+  }
+  // What is no more than round-off is not told by its digits.
+  if (!std::isnan(tilt))
+    text +=
+        fmt::format(" tilt within {} degrees", tilt < 1e-9 ? "1e-9" : fmt::format("{:.2g}", tilt));
+  else if (summary.census.sectors > 1)
+    text += " no tilt on mirror planes (run.symmetry)";
+  fmt::print("{}\n", text);
+}
+
+/// How each stage of a program went, and what the press cost; NaN: not known, or no loop [J].
+void print_program(const std::vector<StageEntry>& program, double work_in, double loop_area) {
+  const ShownUnits& units = shown_units();
+  double largest = 0.0;
+  for (const StageEntry& stage : program)
+    largest = std::fmax(largest, std::fmax(stage.begin_force, stage.end_force));
+  // What is no more than round-off is not told by its digits.
+  const auto known = [&](double force) {
+    if (std::isnan(force)) return std::string("?");
+    return units.force.text(std::abs(force) < 1e-6 * largest ? 0.0 : force);
+  };
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    const StageEntry& stage = program[i];
+    std::string text = (stage.moves() ? "to " : "hold at ") + units.length.text(stage.indentation);
+    if (!std::isnan(stage.speed)) text += " at " + units.speed.text(stage.speed);
+    if (!std::isnan(stage.end)) text += fmt::format(", {:.4g} to {:.4g} s", stage.begin, stage.end);
+    text += fmt::format(": force from {} to {}", known(stage.begin_force), known(stage.end_force));
+    if (!std::isnan(stage.relaxation))
+      text += fmt::format(", relaxed by {:.3g} %", 100.0 * stage.relaxation);
+    fmt::print("stage {}: {}\n", i + 1, text);
+  }
+  if (!std::isnan(work_in)) fmt::print("work put in: {:.4g} mJ\n", 1e3 * work_in);
+  if (!std::isnan(loop_area))
+    fmt::print("work not given back (area of the loop): {:.4g} mJ\n", 1e3 * loop_area);
+}
+
+void print_press_facts(const std::filesystem::path& folder, bool reused) {
+  const auto summary = struct_of<PressSummary>(read_entry(folder / "summary.json"));
+  print_program(summary.program, summary.work_in, summary.loop_area);
+  if (summary.rests()) {
+    const StaticCensusEntry& census = summary.static_census;
+    fmt::print("{} particles ({} of the tip), {} Newton iterations\n", census.particles,
+               census.sectors == 1 ? "all" : fmt::format("1/{}", census.sectors),
+               summary.effort.newton_iterations);
+    return;
+  }
+  fmt::print("time step {:.3g} s: {}\n", summary.step.step, summary.step.explanation);
+  const long parts = summary.census.sectors;
+  fmt::print("real-time factor {:.2f} (simulated over wall time, threads: {}{}{})\n",
+             summary.real_time_factor, summary.threads,
+             parts > 1 ? fmt::format("; 1/{} of the tip computed, forces are of all", parts) : "",
+             reused ? "; of the run that computed it" : "");
+  if (summary.controlled()) print_control(summary);
+}
+
+/// The files that a press takes something from.
+void print_sources(const LoadedConfig& loaded) {
+  const Config& config = loaded.config;
+  if (!config.constants_file.empty())
+    fmt::print("constants of the lattice: {}\n", config.constants_file.string());
+  if (!config.controller.schedule.empty() && config.press.protocol.mode == meshes::DriveMode::pid)
+    fmt::print("stiffness of the contact scheduled on {}\n", config.controller.schedule.string());
+}
+
+/// What --real-time has come to: errors, and how fast the press was.
+void finish_real_time(Session& session, RealTimeRun& run, bool quiet) {
+  const std::filesystem::path& folder = session.folder().path();
+  const auto summary = struct_of<PressSummary>(read_entry(folder / "summary.json"));
+  run.record.slowest_factor = summary.slowest_real_time_factor;
+  run.record.whole_factor = summary.real_time_factor;
+  run.record.step = summary.step.step;
+  run.find_force_error(session, meshes::PressResponse::read_csv(folder / "response.csv"));
+  run.write(folder);
+  auto told = read_json(folder / "summary.json");
+  told["real_time"] = meshes::json_of<nlohmann::ordered_json>(run.record);
+  rewrite_result(folder, "summary.json", told);
+  if (!quiet) fmt::print("{}", run.text());
+}
+
+/// Puts the run's notes where scripts look. They belong to the run: what the job computes does not
+/// depend on them, so they are no part of its cached result.
+void put_warnings(const std::filesystem::path& folder, const std::vector<std::string>& notes) {
+  auto summary = read_json(folder / "summary.json");
+  summary.erase("warnings");
+  if (!notes.empty()) summary["warnings"] = notes;
+  rewrite_result(folder, "summary.json", summary);
+}
+
+}  // namespace
+
+int run_press(const CommandLine& line) {
+  std::optional<RealTimeRun> real_time;
+  if (line.real_time) real_time = real_time_run(line);
+  LoadedConfig loaded =
+      with_material(real_time ? real_time->loaded : load_checked(line), LatticeUse::press);
+  const lattice::PressSetup setup = press_setup(loaded);
+  for (const auto& notes : {law_notes(setup), scaling_notes(setup)})
+    loaded.notes.insert(loaded.notes.end(), notes.begin(), notes.end());
+  const std::vector<std::string> warnings = loaded.notes;
+  if (real_time) loaded.notes.push_back(real_time->note());
+  if (loaded.config.automatic_integrator) loaded.notes.push_back(integrator_note(setup));
+  if (const auto note = duration_note(setup, cores_for(loaded))) loaded.notes.push_back(*note);
+  if (line.movie > 0 && setup.protocol.mode == meshes::DriveMode::equilibrium) {
+    throw ConfigError({{"--movie", "press.mode", "static", "a press without time has no movie",
+                        "choose pid or quasi-static"}});
+  }
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    Job job = press_job(setup, line.movie);
+    if (real_time) {
+      real_time->write(session.folder().path());
+      job.repeatable = false;  // it is this machine's time that is asked for
+    }
+    const JobResult result = session.run({"", std::move(job), false});
+    put_warnings(session.folder().path(), warnings);
+    if (!line.quiet) {
+      fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
+                 meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
+      print_response(session.folder().path(), setup.protocol);
+      print_press_facts(session.folder().path(), result.reused);
+      print_sources(loaded);
+    }
+    if (real_time) finish_real_time(session, *real_time, line.quiet);
+    if (!line.quiet) {
+      if (line.movie > 0) {
+        fmt::print("movie for ParaView: {}\n",
+                   (session.folder().path() / "movie/movie.pvd").string());
+      }
+      print_folder(session, result);
+    }
+    return 0;
+  });
+}
+
+int run_modes(const CommandLine& line) {
+  LoadedConfig loaded = load_config(line.config);
+  // Whatever the press is: nothing moves here, so what only static presses know is welcome.
+  loaded.config.press.protocol.mode = meshes::DriveMode::equilibrium;
+  loaded.config.press.protocol.contact = meshes::ContactMode::stick;
+  check_all(loaded);
+  loaded = with_material(loaded, LatticeUse::modes);
+  const lattice::PressSetup setup = press_setup(loaded);
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const JobResult result =
+        session.run({"", modes_job(setup, loaded.config.lattice_modes), false});
+    put_warnings(session.folder().path(), loaded.notes);
+    if (line.quiet) return 0;
+    fmt::print("{} lattice, natural frequencies\n", lattice::name(setup.lattice.model));
+    print_frequencies(session.folder().path());
+    print_folder(session, result);
+    return 0;
+  });
+}
+
+int run_reference(const CommandLine& line) {
+  const LoadedConfig loaded = with_material(load_config(line.config), LatticeUse::none);
+  check_all(loaded);
+  const fem_reference::ReferenceJob reference = continuum_setup(loaded);
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const JobResult result = session.run({"", reference_job(reference), false});
+    const std::filesystem::path& folder = session.folder().path();
+    const bool press = reference.analysis != fem_reference::Analysis::modes;
+    const bool reached = !press || !reference.estimate_error ||
+                         !(worst_error(folder).relative > reference.tolerance);
+    if (!line.quiet) {
+      fmt::print("{}\n", heading(reference));
+      if (press) {
+        print_response(folder, reference.protocol);
+        const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+        print_program(stage_entries(reference.protocol, response), meshes::unknown,
+                      reference.protocol.goes_back() ? work_along(response) : meshes::unknown);
+        if (reference.estimate_error) print_accuracy(folder, reference);
+      } else {
+        print_frequencies(folder);
+      }
+      print_folder(session, result);
+    }
+    if (reached) return 0;
+    put_warnings(folder, {"force_error over normal_force exceeds reference.tolerance"});
+    fmt::print(stderr,
+               "fingertip: not converged: the force may be off by more than reference.tolerance = "
+               "{:.3g}; the run is kept, with its error bars{}\n",
+               reference.tolerance,
+               reference.analysis == fem_reference::Analysis::transient
+                   ? ". In time the error is that of the steps, too, and most at small depths: ask "
+                     "for deeper samples or a larger tolerance"
+                   : "");
+    return 3;
+  });
+}
+
+}  // namespace fingertip::studies::inline cli::inline verbs

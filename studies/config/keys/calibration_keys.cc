@@ -1,0 +1,257 @@
+/// The keys of [calibration].
+#include "calibration/material_tests/law_model.h"
+#include "studies/config/keys/key_builders.h"
+#include "studies/config/keys/key_sections.h"
+
+namespace fingertip::studies::inline config::inline keys {
+
+std::string_view name(CalibrationProblem problem) {
+  switch (problem) {
+    case CalibrationProblem::moduli: return "moduli";
+    case CalibrationProblem::curve: return "curve";
+    case CalibrationProblem::experiment: return "experiment";
+    case CalibrationProblem::finite_strain: return "finite-strain";
+    case CalibrationProblem::damping: return "damping";
+    case CalibrationProblem::material: return "material";
+  }
+  return "unknown";
+}
+
+std::string_view name(ShapeKind shape) {
+  switch (shape) {
+    case ShapeKind::dome: return "dome";
+    case ShapeKind::profile: return "profile";
+    case ShapeKind::solid: return "solid";
+  }
+  return "unknown";
+}
+
+std::string_view name(ConstantsSource source) {
+  switch (source) {
+    case ConstantsSource::automatic: return "auto";
+    case ConstantsSource::rule: return "rule";
+    case ConstantsSource::calibrated: return "calibrated";
+    case ConstantsSource::file: return "file";
+  }
+  return "unknown";
+}
+
+std::string_view name(ForwardKind forward) {
+  return forward == ForwardKind::lattice ? "lattice" : "continuum";
+}
+
+std::string_view name(IntervalKind kind) {
+  switch (kind) {
+    case IntervalKind::automatic: return "auto";
+    case IntervalKind::linear: return "linear";
+    case IntervalKind::profile: return "profile";
+  }
+  return "unknown";
+}
+
+namespace {
+
+/// A key for a member of the settings.
+template <typename T>
+Key entry(const char* name, Range range, const char* help, T CalibrationSettings::*member) {
+  return plain("calibration", name, range, help, at(&Config::calibration, member));
+}
+
+Key problem_key() {
+  using enum CalibrationProblem;
+  return choice(
+      "calibration", "problem",
+      {{"moduli", "spring constants to Young's and shear modulus"},
+       {"curve", "spring constants, bond and contact to the continuum's forces"},
+       {"experiment", "Young's and shear modulus to measured forces"},
+       {"finite-strain", "the neo-Hookean law (law A) to measured stress and stretch, or shear"},
+       {"damping", "the retardation time to loss factors, creep, a held ramp or a press"},
+       {"material", "laws of rubber at large strain to the material tests of calibration.tests"}},
+      "what is fitted to what", at(&Config::calibration, &CalibrationSettings::problem));
+}
+
+Key data_key() {
+  return with_rule(
+      entry("data", any,
+            "measured CSV files, units in the header, or TOML files that describe such",
+            &CalibrationSettings::data),
+      "for experiment, finite-strain and damping; paths are relative to this file", {});
+}
+
+Key forward_key() {
+  return choice(
+      "calibration", "forward",
+      {{"lattice", "the static lattice of [lattice], with exact derivatives"},
+       {"continuum", "the continuum, run at the Poisson's ratios that the search comes near"}},
+      "what answers for the press in an experiment",
+      at(&Config::calibration, &CalibrationSettings::forward));
+}
+
+Key range_key() {
+  return with_rule(
+      entry("poisson_range", {-0.99, 0.4999, true}, "Poisson's ratios between which is sought",
+            &CalibrationSettings::poisson_range),
+      "the lower one first; for experiment", {});
+}
+
+Key candidates_key() {
+  return with_rule(
+      entry("candidates", any,
+            "further measurements of which is told how they would narrow the intervals; []: none",
+            &CalibrationSettings::candidates),
+      "repeat, shallow (half as deep), deep (half as deep again), blank (a rigid one, for the "
+      "compliance), ball, plane, contact (the other one), as far as the continuum presses them on "
+      "its meridian; or conditions, \"obstacle.shape=sphere; obstacle.radius=5 mm\"",
+      {});
+}
+
+/// Files with a column `position` know the travel of a machine only.
+Key rig_key() {
+  Key key;
+  key.section = "calibration";
+  key.name = "rig";
+  key.kind = Kind::fields;
+  key.preset = "{}";
+  key.fields = {
+      {"touch_offset", "m", "0.1 mm", "travel at first touch, of each file; fitted unless given"},
+      {"compliance", "m/N", "0.1 mm/N", "of frame, load cell and grips; 0 unless given"},
+      {"force_offset", "N", "0.02 N", "what the load cell tells without load; 0 unless given"},
+      {"drift", "N/s", "0.001 N/s", "of that in the file's column time; 0 unless given"},
+      {"blank", "", "blank.csv",
+       "a press of a rigid blank by this machine, whose line tells the compliance with its "
+       "interval"}};
+  key.help = "the machine of files that tell its travel in a column position";
+  key.rule =
+      "each is \"fit\", a quantity, or a quantity with its standard deviation before the fit, "
+      "\"0.1 +- 0.02 mm/N\"; blank is a file, in place of compliance";
+  key.assign = [](Config& config, const Value& value) {
+    RigSettings& rig = config.calibration.rig = {};
+    rig.blank = value.word;
+    const std::pair<std::string_view, RigSetting*> entries[] = {{"touch_offset", &rig.touch_offset},
+                                                                {"compliance", &rig.compliance},
+                                                                {"force_offset", &rig.force_offset},
+                                                                {"drift", &rig.drift}};
+    for (std::size_t i = 0; i < value.words.size(); ++i)
+      for (const auto& [name, setting] : entries)
+        if (name == value.words[i])
+          *setting = {value.numbers[3 * i] == 1.0, value.numbers[3 * i + 1],
+                      value.numbers[3 * i + 2], true};
+  };
+  return key;
+}
+
+}  // namespace
+
+std::vector<Key> calibration_keys() {
+  using Order = CalibrationSettings;
+  const auto of_material = [](Key key) {
+    return only_with("calibration.problem", {"material"}, std::move(key));
+  };
+  return {
+      problem_key(),
+      data_key(),
+      of_material(choice("calibration", "tests", {{"none", "only for material"}},
+                         "TOML file that names and describes material tests, for material",
+                         at(&Config::calibration, &Order::tests))),
+      of_material(with_rule(
+          entry("laws", any, "laws that are tried; none: all of them", &Order::laws),
+          "neo-hookean, mooney-rivlin, gent, yeoh-2, yeoh-3, ogden-1, ogden-2, ogden-3; \"yeoh-2+"
+          "prony-1\": with so many branches of a relaxation, not up to calibration.branches",
+          {})),
+      of_material(entry("branches", {0, calibration::most_branches, true},
+                        "most branches of a relaxation, where tests are given in time",
+                        &Order::branches)),
+      of_material(choice("calibration", "weights",
+                         {{"test", "the root mean square stress of each test"},
+                          {"stress", "the same for all: small stresses count little"},
+                          {"point", "the stress itself, at least 5 % of the test's largest"}},
+                         "what a residual of a material test is divided by; a sigma goes before it",
+                         at(&Config::calibration, &Order::weights))),
+      of_material(entry("stretch_range", {0.05, 20.0, true},
+                        "principal stretches of use, in which a law must be stable",
+                        &Order::stretch_range)),
+      entry("conditions", any,
+            "settings of presses in place of [press], \"press.contact=stick; press.tilt=20 deg\", "
+            "for "
+            "each of data; none: the press itself",
+            &Order::conditions),
+      quantity("calibration", "depth", "cm", "m", positive,
+               "largest indentation of the continuum's curves",
+               at(&Config::calibration, &CalibrationSettings::depth)),
+      entry("points", {2, 200, true}, "indentations of each of the continuum's curves",
+            &Order::points),
+      with_rule(
+          entry("parameters", any, "what is free; none: what the problem usually frees",
+                &Order::parameters),
+          "youngs_modulus, shear_modulus: E and G; modulus, or one of these alone: E, Poisson's "
+          "ratio held; "
+          "lame_shear, lambda: of law A; k1, k2, k3, kappa: of the lattice; bond, contact: "
+          "factors on the ties; retardation_time. experiment and curve know all but the "
+          "last, finite-strain the moduli and law A's, damping the last alone. experiment "
+          "knows besides relaxation: shares and times of the branches of rubber.relaxation, "
+          "of one if it has none; or relaxation_g1, relaxation_tau1 ...: some of them",
+          {}),
+      forward_key(),
+      only_with("calibration.problem", {"experiment"}, rig_key()),
+      only_with("calibration.problem", {"experiment"},
+                entry("noise", {0.0, 1.0, true},
+                      "relative standard deviation of the forces that calibrate --plan plans",
+                      &Order::noise)),
+      only_with("calibration.problem", {"experiment"},
+                quantity("calibration", "noise_force", "N", "N", not_negative,
+                         "standard deviation of these that is there whatever the force",
+                         at(&Config::calibration, &Order::noise_force))),
+      only_with("calibration.problem", {"experiment"}, candidates_key()),
+      only_with("calibration.problem", {"experiment"},
+                choice("calibration", "contact",
+                       {{"both", "where press.contact is not given, sticking and frictionless"},
+                        {"given", "press.contact, also where that is its default"}},
+                       "with which contacts measured presses are fitted",
+                       at(&Config::calibration, &Order::contact_as_given))),
+      only_with("calibration.problem", {"experiment"},
+                entry("machine", any, "name of the machine: files of one share a compliance",
+                      &Order::machine)),
+      entry("prior", {0.0, 10.0, true},
+            "relative standard deviation of constants about those of the moduli, ten times that "
+            "for bond and contact; 0: no prior",
+            &Order::prior),
+      entry("model_error", {0.0, 1.0, true},
+            "relative error a model of a curve may have, besides the continuum's own",
+            &Order::model_error),
+      entry("robust_width", {0.0, 1e6, true},
+            "residuals beyond so many sigma count linearly; 0: least squares",
+            &Order::robust_width),
+      range_key(),
+      entry("evaluations", {1, 1000000, true},
+            "evaluations of the model a search may do, a press of every curve each",
+            &Order::evaluations),
+      entry("profile", any, "two free parameters to draw chi-square over, or none",
+            &Order::profile),
+      only_with("calibration.problem", {"experiment"},
+                choice("calibration", "intervals",
+                       {{"auto",
+                         "profile where the modulus alone is sought of the rubber, which "
+                         "costs no press, else linear"},
+                        {"linear", "of the covariance at the estimates"},
+                        {"profile",
+                         "up to where chi-square, least over the other parameters, has "
+                         "risen: also where ellipses do not hold"}},
+                       "what 95 % intervals of parameters are",
+                       at(&Config::calibration, &Order::intervals))),
+      entry(
+          "bias", any,
+          "run the continuum at the estimates, too, and tell what the lattice's error does to them",
+          &Order::bias),
+      entry("surrogate", any, "write F(delta) and its derivative for gain schedules",
+            &Order::surrogate),
+      entry("isotropy_weight", {0.0, 1e6, true},
+            "weight of isotropy beside E and G for central springs", &Order::isotropy_weight),
+      entry("bulk_weight", {0.0, 1e6, true},
+            "weight of the bulk modulus beside E and G for central springs", &Order::bulk_weight),
+      entry("starts", {1, 1000, true}, "random starts of the fit to moduli; the best one is kept",
+            &Order::starts),
+      entry("seed", {0, 4294967295.0, true}, "seed of the random starts", &Order::seed),
+  };
+}
+
+}  // namespace fingertip::studies::inline config::inline keys

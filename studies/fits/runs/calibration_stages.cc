@@ -1,0 +1,307 @@
+#include "studies/fits/runs/calibration_stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/moduli/result_io.h"
+#include "meshes/press/press_response.h"
+#include "studies/fits/models/fit_relaxation.h"
+#include "studies/fits/runs/fit_bias.h"
+#include "studies/fits/runs/fit_contact.h"
+#include "studies/fits/runs/fit_job.h"
+#include "studies/fits/runs/moduli_job.h"
+#include "studies/fits/runs/surrogate_job.h"
+#include "studies/fits/setup/configured_fit.h"
+#include "studies/fits/setup/fit_setup.h"
+#include "studies/jobs/cache.h"
+#include "studies/jobs/json_file.h"
+#include "studies/presses/press_setup.h"
+#include "studies/presses/reference_job.h"
+
+namespace fingertip::studies::inline fits::inline runs {
+
+namespace {
+
+namespace fs = std::filesystem;
+using calibration::MaterialParameter;
+using meshes::PressResponse;
+using nlohmann::ordered_json;
+
+/// Indentations at which a lattice is judged by its continuum; between them its relative error is
+/// taken as linear.
+constexpr std::size_t bias_samples = 8;
+
+constexpr const char* other_contact_name = "fit_other_contact";
+
+/// Evenly chosen, the last one always.
+std::vector<double> thinned(const std::vector<double>& x, std::size_t count) {
+  if (x.size() <= count) return x;
+  std::vector<double> chosen;
+  for (std::size_t i = 1; i <= count; ++i) chosen.push_back(x[i * x.size() / count - 1]);
+  return chosen;
+}
+
+/// A static run has exactly the samples it was asked for, a transient one has more.
+const meshes::PressSample& sample_near(const PressResponse& response, double depth) {
+  return *std::ranges::min_element(response.samples(), {}, [&](const meshes::PressSample& sample) {
+    return std::abs(sample.indentation - depth);
+  });
+}
+
+Eigen::MatrixXd matrix_of(const ordered_json& rows) {
+  Eigen::MatrixXd matrix(Eigen::Index(rows.size()), Eigen::Index(rows.size()));
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      matrix(i, j) = number_of(rows[std::size_t(i)][std::size_t(j)]);
+  return matrix;
+}
+
+void check_moduli(const LoadedConfig& loaded) {
+  if (!loaded.config.calibration.data.empty())
+    throw loaded.locate(
+        {{"calibration.data", "", "the problem moduli fits to E and G of the rubber",
+          "leave data out, or take the problem experiment"}});
+  const lattice::ModelKind model = loaded.config.press.lattice.model;
+  if (model == lattice::ModelKind::network)
+    throw loaded.locate({{"lattice.model", "network",
+                          "the network takes G and lambda from the rubber; nothing is left to fit "
+                          "to moduli",
+                          "calibrate central or hookean, or fit it to a curve: "
+                          "calibration.problem = \"curve\""}});
+  if (model == lattice::ModelKind::published)
+    throw loaded.locate({{"lattice.model", "published",
+                          "the published model has a rule for its constants and is not calibrated",
+                          "calibrate central, hookean or network"}});
+}
+
+}  // namespace
+
+CalibrationStages::CalibrationStages(LoadedConfig loaded, std::string folder, Failed failed)
+    : loaded_(std::move(loaded)), folder_(std::move(folder)), failed_(failed) {
+  if (loaded_.config.calibration.problem == CalibrationProblem::moduli) {
+    check_moduli(loaded_);
+  } else {
+    setup_ = fit_setup(loaded_);
+    loaded_ = setup_.loaded;
+    other_contact_ = with_other_contact(setup_);
+  }
+}
+
+std::string CalibrationStages::place(const std::string& name) const {
+  return folder_.empty() || name.empty() ? folder_ + name : folder_ + "/" + name;
+}
+
+bool CalibrationStages::by_moduli() const {
+  return loaded_.config.calibration.problem == CalibrationProblem::moduli;
+}
+
+std::vector<PlannedJob> CalibrationStages::next(const fs::path& run) {
+  std::vector<PlannedJob> jobs;
+  while (jobs.empty() && stage_ != Stage::done) {
+    if (stage_ == Stage::data) jobs = data_jobs();
+    if (stage_ == Stage::fit) jobs = fits(run);
+    if (stage_ == Stage::follow_up) jobs = follow_up_jobs(run);
+    if (stage_ == Stage::finish) finish(run);
+    stage_ = Stage(int(stage_) + 1);
+  }
+  return jobs;
+}
+
+double CalibrationStages::later_weight() const {
+  double weight = 0.0;
+  if (stage_ <= Stage::fit)
+    weight += by_moduli() ? moduli_weight : fit_weight * (other_contact_ ? 2.0 : 1.0);
+  if (stage_ > Stage::follow_up) return weight;
+  if (loaded_.config.calibration.surrogate) weight += surrogate_weight;
+  if (measures_bias())
+    for (const auto& reference : setup_.input.continua) weight += reference_job(reference).weight;
+  return weight;
+}
+
+std::vector<PlannedJob> CalibrationStages::data_jobs() {
+  std::vector<PlannedJob> jobs;
+  if (by_moduli()) return jobs;
+  if (!setup_.data_from_continuum) return jobs;
+  for (const fem_reference::ReferenceJob& reference : setup_.input.continua)
+    jobs.push_back(
+        {place("reference_" + std::to_string(jobs.size() + 1)), reference_job(reference)});
+  return jobs;
+}
+
+/// Forces of the continuum become data; their deviation is its own error and what the model of a
+/// curve may miss.
+void CalibrationStages::take_continuum_data(const fs::path& run) {
+  const double model_error = std::max(loaded_.config.calibration.model_error, 1e-6);
+  for (std::size_t i = 0; i < setup_.input.curves.size(); ++i) {
+    calibration::Curve& curve = setup_.input.curves[i];
+    const PressResponse response =
+        PressResponse::read_csv(run / place("reference_" + std::to_string(i + 1)) / "response.csv");
+    for (const double depth : curve.x) {
+      const meshes::PressSample sample = sample_near(response, depth);
+      const double own = std::isfinite(sample.force_error) ? sample.force_error : 0.0;
+      curve.y.push_back(sample.normal_force);
+      curve.sigma.push_back(std::hypot(own, model_error * sample.normal_force));
+    }
+  }
+}
+
+std::vector<PlannedJob> CalibrationStages::fits(const fs::path& run) {
+  if (by_moduli())
+    return {{folder_,
+             moduli_job(loaded_.config.press.rubber,
+                        fit_options(loaded_, loaded_.config.press.lattice.model)),
+             false}};
+  if (setup_.data_from_continuum) take_continuum_data(run);
+  // Of two contacts one may have no answer.
+  const bool either = other_contact_.has_value();
+  std::vector<PlannedJob> jobs = {{place(fit_name_), fit_job(setup_.input), either}};
+  if (either) jobs.push_back({place(other_contact_name), fit_job(other_contact_->input), true});
+  return jobs;
+}
+
+/// Where the contact is not known: the one that is taken without word, or the other one where only
+/// that has an answer.
+void CalibrationStages::choose_contact(const fs::path& run) {
+  if (!other_contact_) return;
+  const auto status = [&](const FitSetup& fit, const std::string& name) {
+    return marked_status(fit_job(fit.input), run / place(name));
+  };
+  const std::string own = status(setup_, fit_name_),
+                    other = status(*other_contact_, other_contact_name);
+  if (own == finished) return;
+  const std::string name = contact_name(setup_), rival = contact_name(*other_contact_);
+  if (other != finished)
+    throw meshes::NotConverged(
+        fmt::format("press.contact is not told; {}: {}; {}: {}", name, own, rival, other));
+  setup_ = *std::move(other_contact_);
+  other_contact_.reset();
+  loaded_ = setup_.loaded;
+  fit_name_ = other_contact_name;
+  contact_note_ = fmt::format(
+      " Whether the rubber sticks is not told (press.contact): {} is taken, since {} contact has "
+      "no "
+      "answer ({}).",
+      rival, name, own.substr(0, own.find('\n')).substr(own.find(": ") + 2));
+}
+
+/// Of a lattice that answered for measured forces: the continuum at the estimates tells its error.
+bool CalibrationStages::measures_bias() const {
+  return loaded_.config.calibration.problem == CalibrationProblem::experiment &&
+         loaded_.config.calibration.bias && !by_continuum(setup_.input) &&
+         setup_.input.branches.empty() &&
+         std::ranges::all_of(parameters_of(setup_.input), calibration::is_of_the_rubber);
+}
+
+PlannedJob CalibrationStages::bias(const fs::path& run, std::size_t curve) const {
+  fem_reference::ReferenceJob reference = setup_.input.continua[curve];
+  const calibration::Material found = material(run);
+  reference.rubber.youngs_modulus = found.rubber.youngs_modulus;
+  reference.rubber.shear_modulus = found.rubber.shear_modulus;
+  reference.press_to(thinned(reference.protocol.samples, bias_samples));
+  return {place("bias_" + std::to_string(curve + 1)), reference_job(reference), false};
+}
+
+std::vector<PlannedJob> CalibrationStages::follow_up_jobs(const fs::path& run) {
+  choose_contact(run);
+  std::vector<PlannedJob> jobs;
+  if (!usable(run)) return jobs;
+  if (loaded_.config.calibration.surrogate) jobs.push_back(surrogate(run));
+  if (measures_bias())
+    for (std::size_t i = 0; i < setup_.input.continua.size(); ++i) jobs.push_back(bias(run, i));
+  return jobs;
+}
+
+/// The press of the configuration with what was found.
+PlannedJob CalibrationStages::surrogate(const fs::path& run) const {
+  const calibration::Material found = material(run);
+  lattice::PressSetup setup = press_setup(with_sets(lasting(loaded_), {"press.mode=static"}));
+  setup.rubber = found.rubber;
+  setup.rubber.relaxation = {};  // its forces are those after long times
+  setup.lattice.constants = found.constants;
+  setup.lattice.ligament_stiffness = found.ligament_stiffness;
+  setup.lattice.contact_stiffness = found.contact_stiffness;
+  ForceUncertainty uncertainty;
+  uncertainty.model_error = loaded_.config.calibration.model_error;
+  const bool by_press = !by_moduli() && !setup_.input.presses.empty() &&
+                        setup_.input.problem != CalibrationProblem::damping;
+  if (by_press) {
+    const ordered_json fit = read_json(run / place(fit_name_) / "calibration.json");
+    uncertainty.parameters = parameters_of(setup_.input);
+    // As wide as the intervals.
+    uncertainty.covariance = std::pow(fit.at("birge_ratio").get<double>(), 2) *
+                             matrix_of(fit.at("covariance"))
+                                 .topLeftCorner(Eigen::Index(uncertainty.parameters.size()),
+                                                Eigen::Index(uncertainty.parameters.size()));
+  }
+  return {place("surrogate"), surrogate_job(setup, uncertainty), false};
+}
+
+calibration::Material CalibrationStages::material(const fs::path& run) const {
+  return calibration::read_material_toml(by_moduli() ? run / folder_ / "material.toml"
+                                                     : run / place(fit_name_) / estimates_name);
+}
+
+bool CalibrationStages::usable(const fs::path& run) const {
+  if (by_moduli()) return true;
+  const fs::path estimates = run / place(fit_name_) / estimates_name;
+  return fs::exists(estimates) &&
+         (failed_ == Failed::kept || calibration::read_material_toml(estimates).rejected.empty());
+}
+
+nlohmann::ordered_json CalibrationStages::with_bias(nlohmann::ordered_json calibration,
+                                                    const fs::path& run) const {
+  std::vector<double> error;
+  for (std::size_t i = 0; i < setup_.input.curves.size(); ++i) {
+    const fs::path folder = run / place("bias_" + std::to_string(i + 1));
+    const Eigen::VectorXd own = lattice_error(
+        setup_.input.curves[i], calibration["residuals"][i].get<std::vector<double>>(),
+        PressResponse::read_csv(folder / "response.csv"));
+    error.insert(error.end(), own.begin(), own.end());
+  }
+  add_bias(Eigen::Map<const Eigen::VectorXd>(error.data(), Eigen::Index(error.size())),
+           calibration);
+  return calibration;
+}
+
+/// The fit to moduli knows neither the finger nor what of the rubber is only a default.
+void CalibrationStages::complete_moduli(const fs::path& file) const {
+  calibration::Material found = calibration::read_material_toml(file);
+  if (loaded_.config.press.geometry.is_dome()) found.geometry = loaded_.config.press.geometry;
+  found.density_known = loaded_.entries.at("rubber.density").given;
+  found.retardation_time_known = loaded_.entries.at("rubber.retardation_time").given;
+  calibration::write_material_toml(found, file);
+}
+
+void CalibrationStages::finish(const fs::path& run) const {
+  const fs::path target = run / folder_;
+  const auto copy = [&](const std::string& from, const char* file, const char* as) {
+    fs::copy_file(run / place(from) / file, target / as, fs::copy_options::overwrite_existing);
+  };
+  const bool use = usable(run);
+  if (by_moduli()) {
+    complete_moduli(target / "material.toml");
+  } else {
+    copy(fit_name_, "fit_data.csv", "fit_data.csv");
+    if (use)
+      copy(fit_name_, estimates_name, "material.toml");
+    else
+      fs::remove(target / "material.toml");  // of an earlier attempt
+    ordered_json calibration = read_json(run / place(fit_name_) / "calibration.json");
+    ordered_json summary = read_json(run / place(fit_name_) / "summary.json");
+    if (use && measures_bias()) calibration = with_bias(std::move(calibration), run);
+    const fs::path other = run / place(other_contact_name) / "calibration.json";
+    if (other_contact_ && fs::exists(other))
+      add_other_contact(read_json(other), contact_name(setup_), contact_name(*other_contact_),
+                        calibration);
+    calibration["statement"] = calibration["statement"].get<std::string>() + contact_note_;
+    summary["statement"] = calibration["statement"];
+    write_json(summary, target / "summary.json");
+    write_json(calibration, target / "calibration.json");
+  }
+  if (use && loaded_.config.calibration.surrogate)
+    for (const char* file : {"surrogate.csv", "surrogate.json"}) copy("surrogate", file, file);
+}
+
+}  // namespace fingertip::studies::inline fits::inline runs

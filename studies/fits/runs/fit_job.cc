@@ -1,0 +1,242 @@
+#include "studies/fits/runs/fit_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "calibration/files/words.h"
+#include "calibration/press_fit/model_error.h"
+#include "calibration/statistics/curve_checks.h"
+#include "calibration/statistics/curve_fit.h"
+#include "calibration/statistics/fit_statistics.h"
+#include "lattice/press/setup_fields.h"
+#include "meshes/press/fields.h"
+#include "meshes/tables/fields_json.h"
+#include "source_hash.h"
+#include "studies/fits/models/fit_models.h"
+#include "studies/fits/models/fit_prospects.h"
+#include "studies/fits/models/fit_relaxation.h"
+#include "studies/fits/models/fit_repeats.h"
+#include "studies/fits/models/fit_rig.h"
+#include "studies/fits/models/fit_suspects.h"
+#include "studies/fits/runs/fit_material.h"
+#include "studies/jobs/json_file.h"
+#include "studies/presses/press_record.h"
+
+namespace fingertip::studies::inline fits::inline runs {
+
+using calibration::CurveFitOptions;
+using calibration::ForwardModel;
+using calibration::MaterialParameter;
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Points per parameter where an evaluation costs nothing: valleys are narrow.
+constexpr int fine_grid = 61;
+
+void add_profile(const FitInput& input, const std::vector<ForwardModel*>& models,
+                 calibration::FitRecord& record) {
+  const auto place = [&](const std::string& name) {
+    return std::size_t(std::ranges::find(record.fit.labels, name) - record.fit.labels.begin());
+  };
+  const std::size_t first = place(input.profile[0]), second = place(input.profile[1]);
+  calibration::ProfileOptions grid;
+  if (input.presses.empty() || by_continuum(input)) grid.points = fine_grid;
+  record.profile = calibration::profile_likelihood(record.curves, models, record.options,
+                                                   record.fit, first, second, grid);
+  record.profile_first = record.fit.parameters[first];
+  record.profile_second = record.fit.parameters[second];
+}
+
+void write(const calibration::FitRecord& record, const fs::path& folder) {
+  const std::vector<std::string> failed = calibration::failed_tests(record);
+  calibration::write_fit_json(record, folder / "calibration.json");
+  calibration::write_fit_data(record, folder / "fit_data.csv");
+  calibration::Material material = record.material;
+  material.statement = calibration::fit_statement(record);
+  material.rejected = calibration::in_one(failed);
+  if (material.violations().empty())
+    calibration::write_material_toml(material, folder / estimates_name);
+  write_json({{"problem", record.problem},
+              {"model", lattice::name(record.material.model)},
+              {"status", "finished"},
+              {"failed", failed},
+              {"evaluations", record.fit.evaluations},
+              {"wall_time", record.wall_time},
+              {"statement", material.statement}},
+             folder / "summary.json");
+}
+
+std::string model_error_words(const FitInput& input) {
+  std::string words = input.with_lattice_error ? "the known error of the lattice" : "";
+  if (!input.theory_error.empty())
+    words += std::string(words.empty() ? "" : " and ") + input.theory_error_of;
+  return words;
+}
+
+calibration::FitRecord described(const FitInput& input) {
+  calibration::FitRecord record;
+  record.problem = name(input.problem);
+  record.forward = by_continuum(input)     ? "continuum"
+                   : input.presses.empty() ? "formula"
+                                           : "lattice";
+  record.curves = input.curves;
+  record.conditions = input.conditions;
+  record.model_error = model_error_words(input);
+  if (!input.branches.empty()) record.observed_times = observed_times(input.curves);
+  if (input.rubber_known) record.target = input.base.rubber;
+  return record;
+}
+
+/// Relative errors of all values times `forces`.
+void put_model_error(FitInput& input, const Eigen::VectorXd& forces) {
+  Eigen::MatrixXd& covariance = input.options.model_covariance;
+  covariance = forces.asDiagonal() *
+               relative_model_error(presses_of_values(input), input.with_lattice_error,
+                                    theory_at_values(input)) *
+               forces.asDiagonal();
+  // What is known of the models stands in the covariance: intervals alone tell what is open.
+  input.options.relative_singular_value = 0.0;
+}
+
+Eigen::VectorXd measured_values(const FitInput& input) {
+  std::vector<double> all;
+  for (const calibration::Curve& curve : input.curves)
+    all.insert(all.end(), curve.y.begin(), curve.y.end());
+  return Eigen::VectorXd::Map(all.data(), Eigen::Index(all.size()));
+}
+
+Eigen::VectorXd values_at_start(const FitInput& input, const std::vector<ForwardModel*>& models) {
+  const Eigen::VectorXd start = start_of(input.options);
+  Eigen::VectorXd all(measured_values(input).size());
+  Eigen::Index row = 0;
+  for (ForwardModel* model : models) {
+    const Eigen::VectorXd values = model->evaluate(start).value;
+    all.segment(row, values.size()) = values;
+    row += values.size();
+  }
+  return all;
+}
+
+/// From starts at the data's scale, every force as uncertain as noise and the known errors of its
+/// model make it. Errors are relative to forces: at first to those measured, then, lest noise weigh
+/// itself, to those of the start.
+calibration::CurveFit search(FitInput& input, const FitModels& models) {
+  const bool errors = input.with_lattice_error || !input.theory_error.empty();
+  if (errors) put_model_error(input, measured_values(input));
+  start_from_data(input, models);
+  if (errors) put_model_error(input, values_at_start(input, models.addresses()));
+  return calibration::fit_curves(input.curves, models.addresses(), input.options);
+}
+
+void run_fit(FitInput input, const fs::path& folder, const JobContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  const int budget = input.options.max_evaluations;
+  std::string stage = "scan of starts";
+  int evaluations = 0;
+  const auto go_on = [&] {
+    return context.report(
+        std::min(1.0, double(evaluations) / budget),
+        budget < std::numeric_limits<int>::max()
+            ? fmt::format("{}: {} of at most {} evaluations", stage, evaluations, budget)
+            : fmt::format("{}: {} evaluations", stage, evaluations));
+  };
+  const FitModels models(input, folder, context, go_on);
+  const std::vector<ForwardModel*> list = models.addresses();
+  input.options.threads = context.threads;
+  input.options.progress = [&](int count, double) {
+    evaluations = count;
+    return go_on();
+  };
+
+  calibration::FitRecord record = described(input);
+  record.fit = search(input, models);
+  stage = "repeats and intervals";
+  const calibration::CurveFit own = add_scatter_and_intervals(input, list, record);
+  stage = "curves left out";
+  if (input.curves.size() > 1)
+    record.left_out = calibration::leave_one_out(input.curves, list, record.options, record.fit);
+  stage = "profile";
+  if (!input.profile.empty()) add_profile(input, list, record);
+  stage = "lack of fit";
+  record.lack_of_fit = accusations_of(input, own, record.options, models, scatter(record.repeats));
+  if (record.fit.converged && !input.candidates.empty())
+    record.next =
+        outlook(input, models, record.fit.estimates, record.fit.residual_deviation, folder, context,
+                [&](double, const std::string& name) {
+                  stage = "further measurement, " + name;
+                  return go_on();
+                })
+            .prospects;
+  record.rig = rig_values(input);
+  for (std::size_t i = 0; i < input.travels.size(); ++i)
+    record.indentation.push_back(models.indentations(i, record.fit.estimates));
+  record.material = material_of(input, record);
+  record.wall_time =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  write(record, folder);
+  context.log(calibration::fit_statement(record));
+}
+
+}  // namespace
+
+ordered_json fit_inputs(const FitInput& input) {
+  ordered_json inputs = {
+      {"problem", name(input.problem)},
+      {"geometry", meshes::json_of(input.base.geometry)},
+      {"rubber", rubber_inputs(input.base.rubber, input.base.lattice.kinematics)},
+      {"lattice", meshes::json_of(input.base.lattice)},
+      {"rubber_known", input.rubber_known},
+      {"robust_width", input.options.robust_width},
+      {"starts", input.start_ratios},
+      {"profile", input.profile},
+      {"profile_intervals", input.profile_intervals},
+      {"scale_to_data", input.scale_to_data},
+      {"lattice_error", input.with_lattice_error},
+      {"theory_error", input.theory_error},
+      {"evaluations", input.options.max_evaluations},
+      {"poissons_ratios",
+       {input.options.lowest_poissons_ratio, input.options.highest_poissons_ratio}},
+      {"known", {input.density_known, input.retardation_time_known}},
+      {"provenance", input.provenance}};
+  inputs["curves"] = inputs["free"] = ordered_json::array();
+  for (std::size_t i = 0; i < input.curves.size(); ++i)
+    inputs["curves"].push_back(curve_inputs(input, i));
+  for (const calibration::FreeParameter& free : input.options.free)
+    inputs["free"].push_back({{"name", calibration::label(free)},
+                              {"start", free.start},
+                              {"scale", free.scale},
+                              {"lower", free.lower},
+                              {"upper", free.upper},
+                              {"mean", free.prior ? free.prior->mean : 0.0},
+                              {"prior", free.prior ? free.prior->deviation : 0.0}});
+  // Held at the default or given as equal to it: the fit is the same, what is told of it is not.
+  for (const calibration::RigValue& each : rig_values(input))
+    inputs["rig_given"].push_back(each.given);
+  inputs["candidates"] = ordered_json::array();
+  for (const Candidate& each : input.candidates) {
+    inputs["candidates"].push_back({each.name, each.press, each.depth, each.refused});
+    if (each.input) inputs["candidates"].back().push_back(curve_inputs(*each.input, 0));
+  }
+  return inputs;
+}
+
+Job fit_job(const FitInput& input) {
+  Job job;
+  job.kind = "fit";
+  job.inputs = fit_inputs(input);
+  job.source_hash = source_hash::calibration;
+  job.weight = fit_weight;
+  job.resumable = true;
+  job.run = [input](const fs::path& folder, const JobContext& context) {
+    run_fit(input, folder, context);
+  };
+  return job;
+}
+
+}  // namespace fingertip::studies::inline fits::inline runs

@@ -1,0 +1,94 @@
+#include "studies/fits/runs/surrogate_job.h"
+
+#include <cmath>
+
+#include "calibration/press_fit/lattice_forward_model.h"
+#include "calibration/surrogate/surrogate.h"
+#include "source_hash.h"
+#include "studies/jobs/json_file.h"
+#include "studies/presses/press_record.h"
+
+namespace fingertip::studies::inline fits::inline runs {
+
+namespace {
+
+namespace fs = std::filesystem;
+using calibration::LatticeForwardModel;
+using calibration::MaterialParameter;
+using calibration::SurrogateSample;
+using nlohmann::ordered_json;
+
+constexpr int sample_count = 32;
+
+lattice::PressSetup sampled(lattice::PressSetup setup) {
+  setup.protocol.samples.clear();
+  for (int i = 1; i <= sample_count; ++i)
+    setup.protocol.samples.push_back(setup.protocol.depth * i / sample_count);
+  return setup;
+}
+
+/// Of the press with the parameters as they stand in `setup`; without parameters the force alone.
+calibration::CurveSlopes answer(const lattice::PressSetup& setup,
+                                const ForceUncertainty& uncertainty,
+                                const std::function<bool()>& go_on) {
+  std::vector<MaterialParameter> parameters = uncertainty.parameters;
+  if (parameters.empty()) parameters = {MaterialParameter::contact};
+  Eigen::VectorXd values(Eigen::Index(parameters.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    values(Eigen::Index(i)) = calibration::value_of(parameters[i], setup);
+  return LatticeForwardModel(setup, parameters, go_on).evaluate(values);
+}
+
+std::vector<SurrogateSample> samples_of(const lattice::PressSetup& setup,
+                                        const ForceUncertainty& uncertainty,
+                                        const calibration::CurveSlopes& press) {
+  std::vector<SurrogateSample> samples;
+  for (Eigen::Index i = 0; i < press.value.size(); ++i) {
+    double variance = std::pow(uncertainty.model_error * press.value(i), 2);
+    if (!uncertainty.parameters.empty())
+      variance +=
+          press.jacobian.row(i) * uncertainty.covariance * press.jacobian.row(i).transpose();
+    samples.push_back({setup.protocol.samples[std::size_t(i)], press.value(i),
+                       std::sqrt(std::max(variance, 0.0))});
+  }
+  return samples;
+}
+
+void run_surrogate(const lattice::PressSetup& setup, const ForceUncertainty& uncertainty,
+                   const fs::path& folder, const JobContext& context) {
+  const auto go_on = [&] { return context.report(0.5, "pressing"); };
+  calibration::SurrogateOptions options;
+  options.condition = meshes::name(setup.protocol.contact);
+  const calibration::Surrogate surrogate = calibration::fit_surrogate(
+      samples_of(setup, uncertainty, answer(setup, uncertainty, go_on)), options);
+  calibration::write_surrogate_csv(surrogate, folder / "surrogate.csv");
+  calibration::write_surrogate_json(surrogate, folder / "surrogate.json");
+  write_json({{"status", "finished"}, {"statement", surrogate.table().statement}},
+             folder / "summary.json");
+}
+
+}  // namespace
+
+Job surrogate_job(const lattice::PressSetup& press, const ForceUncertainty& uncertainty) {
+  const lattice::PressSetup setup = sampled(press);
+  std::vector<std::string> names;
+  for (const MaterialParameter parameter : uncertainty.parameters)
+    names.emplace_back(calibration::name(parameter));
+  const Eigen::MatrixXd& covariance = uncertainty.covariance;
+  Job job;
+  job.kind = "surrogate";
+  job.inputs = {
+      {"format", 1},
+      {"press", inputs_of(setup)},
+      {"parameters", names},
+      {"covariance", std::vector<double>(covariance.data(), covariance.data() + covariance.size())},
+      {"model_error", uncertainty.model_error}};
+  job.source_hash = source_hash::calibration;
+  job.weight = surrogate_weight;
+  job.run = [setup, uncertainty](const fs::path& folder, const JobContext& context) {
+    run_surrogate(setup, uncertainty, folder, context);
+  };
+  return job;
+}
+
+}  // namespace fingertip::studies::inline fits::inline runs

@@ -1,0 +1,67 @@
+/// The chapters on presses, vibrations and grasps. One without blocks is left out of the page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/files/real_time_record.h"
+#include "studies/report/page/document.h"
+#include "studies/report/results/grasp_run.h"
+#include "studies/report/results/moving_press.h"
+#include "studies/report/results/run_data.h"
+
+namespace fingertip::studies::report::inline chapters::inline press {
+
+/// Force against indentation of continuum and lattices, and the relative error.
+Chapter force_chapter(const RunData& run);
+/// Speed, tilt and force of the models under the controller.
+Chapter control_chapter(const RunData& run);
+/// The models at a few moments of their presses.
+Chapter snapshots_chapter(const RunData& run);
+/// The mesh and the lattices.
+Chapter pictures_chapter(const RunData& run);
+/// Force, contact radius and, from contact.csv, pressure of one press; without blocks when it has
+/// no sample. Of a program the force is drawn to its end, from trace.csv where there is one.
+Chapter press_chapter(const meshes::PressResponse& response, const std::vector<ContactRow>& contact,
+                      const std::vector<lattice::TraceRow>& trace = {});
+/// How the press went on after its first loading: its stages, force in time. `files` may be empty,
+/// but for a lattice's press. Without blocks when nothing followed.
+Chapter program_chapter(const meshes::PressResponse& response, const PressFiles& files);
+/// What --real-time chose, and what it costs; without blocks when nothing was tried.
+Chapter real_time_chapter(const RealTimeRecord& record);
+/// The lateral motion that followed the press; without blocks when none did.
+Chapter sliding_chapter(const meshes::PressResponse& response);
+/// Its force at full depth in a sentence, and that at the end of a lateral motion in another.
+std::string press_answer(const meshes::PressResponse& response);
+/// Frequencies and kinds of motion from modes.csv; without blocks when it is empty.
+Chapter modes_chapter(const std::vector<VibrationMode>& modes);
+std::string modes_answer(const std::vector<VibrationMode>& modes);
+
+/// The result in one paragraph, and as a table in plain text.
+std::string control_answer(const std::vector<MovingPress>& presses);
+std::string control_text(const std::vector<MovingPress>& presses);
+
+/// What `presses` did under their controllers; a chapter without blocks when none has a trace.
+Chapter control_chapter(const std::vector<MovingPress>& presses);
+/// The finger before contact, at first touch, at half depth and at the end, of those `pictured`.
+Chapter snapshots_chapter(const std::vector<MovingPress>& presses);
+/// Force against indentation beside the transient continuum, and how far presses differ from those
+/// they are compared with.
+Chapter speed_chapter(const std::vector<MovingPress>& presses);
+
+/// Whether `presses` differ in how time is integrated: their rods are prescribed, nothing is
+/// controlled.
+bool compares_integrators(const std::vector<MovingPress>& presses);
+/// The same three for them; the chapter has no blocks for presses of another kind.
+std::string integrators_answer(const std::vector<MovingPress>& presses);
+std::string integrators_text(const std::vector<MovingPress>& presses);
+Chapter integrators_chapter(const std::vector<MovingPress>& presses);
+
+/// The result in one paragraph, and as a table in plain text.
+std::string grasp_answer(const std::vector<GraspRun>& grasps);
+std::string grasp_text(const std::vector<GraspRun>& grasps);
+/// Fate against grip force, slip while the grip falls, which way friction points, one grasp in
+/// time; without blocks when there are no grasps.
+Chapter grasp_chapter(const std::vector<GraspRun>& grasps);
+
+}  // namespace fingertip::studies::report::inline chapters::inline press

@@ -1,0 +1,94 @@
+"""What a press is in truth, and whether a fault in its rows shows."""
+
+import bisect
+import csv
+import math
+import os
+import subprocess
+
+DEPTHS = [0.1 * i for i in range(1, 21)]  # [mm]
+SHOWN_SIGMAS, SHOWN_SHARE = 3.0, 0.02
+
+
+class Bench:
+    """Runs the program in a folder of its own, with a cache of its own."""
+
+    def __init__(self, program, folder):
+        self.program, self.folder = program, folder
+        self.environment = os.environ | {"XDG_CACHE_HOME": str(folder / "cache")}
+
+    def run(self, verb, settings, out):
+        sets = [word for setting in settings for word in ("--set", setting)]
+        return subprocess.run([self.program, verb, "--out", str(out), *sets], cwd=self.folder,
+                              env=self.environment, capture_output=True, text=True)
+
+    def press(self, contact, ratio, rod="5 mm", tip="10 mm"):
+        """[(depth [mm], force [mN])] of 100 kPa."""
+        out = self.folder / f"{contact}_{ratio}_{rod}_{tip}".replace(" ", "")
+        if not (out / "response.csv").exists():
+            samples = ",".join(f'"{depth:.1f} mm"' for depth in DEPTHS)
+            run = self.run("reference", [
+                f"press.contact={contact}", f"rubber.poissons_ratio={ratio}",
+                'rubber.youngs_modulus="100 kPa"', f'geometry.rod_radius="{rod}"',
+                f'geometry.tip_radius="{tip}"', "press.mode=static", "reference.strain=finite",
+                "reference.fields=false", f"press.samples=[{samples}]"], out)
+            if run.returncode != 0:
+                raise RuntimeError(run.stderr)
+        with open(out / "response.csv", newline="") as file:
+            return [(1e3 * float(row["indentation [m]"]), 1e3 * float(row["normal_force [N]"]))
+                    for row in csv.DictReader(file)]
+
+
+def force_at(table, depth):
+    """Between depths, and beyond them, a power of the depth."""
+    if depth <= 0:
+        return 0.0
+    after = min(max(1, bisect.bisect_left(table, (depth, 0.0))), len(table) - 1)
+    (d, f), (e, g) = table[after - 1], table[after]
+    return f * (depth / d) ** (math.log(g / f) / math.log(e / d))
+
+
+def least(function, low, high):
+    """Where a function is least: on a grid, then by thirds."""
+    step = (high - low) / 40
+    best = min((low + i * step for i in range(41)), key=function)
+    low, high = best - step, best + step
+    while high - low > 1e-5:
+        third = (high - low) / 3
+        if function(low + third) < function(high - third):
+            high -= third
+        else:
+            low += third
+    return 0.5 * (low + high)
+
+
+def misses(presses):
+    """Whether the best scale of all and touch of each press miss a row by what has to show.
+
+    presses: [(rows (position, force, sigma), table of the truth without the fault)].
+    """
+    touches = [rows[0][0] - table[0][0] for rows, table in presses]
+
+    def products(k, touch):
+        rows, table = presses[k]
+        model = [force_at(table, x - touch) / e for x, _, e in rows]
+        told = [f / e for _, f, e in rows]
+        return (sum(m * m for m in model), sum(m * t for m, t in zip(model, told)),
+                sum(t * t for t in told))
+
+    def scale_of(parts):
+        return sum(p[1] for p in parts) / max(1e-300, sum(p[0] for p in parts))
+
+    for _ in range(1 if len(presses) == 1 else 8):
+        for k in range(len(presses)):
+            others = [products(i, touches[i]) for i in range(len(presses)) if i != k]
+
+            def left(touch):
+                parts = others + [products(k, touch)]
+                return sum(p[2] for p in parts) - scale_of(parts) * sum(p[1] for p in parts)
+
+            touches[k] = least(left, touches[k] - 0.5, touches[k] + 0.5)
+    scale = scale_of([products(k, touch) for k, touch in enumerate(touches)])
+    return any(abs(f - scale * force_at(table, x - touch)) > max(SHOWN_SIGMAS * e,
+                                                                 SHOWN_SHARE * abs(f))
+               for (rows, table), touch in zip(presses, touches) for x, f, e in rows)

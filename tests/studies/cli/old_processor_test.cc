@@ -1,0 +1,132 @@
+// The programs as they were built, on processors without AVX, which qemu emulates: every kernel,
+// every dispatch in our code and in the libraries (OpenBLAS, libm) is taken as it would be there.
+// What the loader resolves by processor (ifuncs) included, for the emulated one is asked.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "meshes/press/press_response.h"
+#include "tests/studies/program.h"
+#include "tests/temporary_folder.h"
+
+using fingertip::meshes::PressResponse;
+using fingertip::meshes::PressSample;
+
+namespace {
+
+constexpr const char* emulator = "/usr/bin/qemu-x86_64";
+
+/// Core 2 without and its successor with SSE 4. (Not qemu64, which no factory made: OpenBLAS takes
+/// it for an Opteron and uses 3DNow!, which it lacks.)
+constexpr const char* old_processors[] = {"Conroe", "Nehalem"};
+
+/// Equal but for `tolerance` of the largest of its kind. Lateral forces and torques are left out:
+/// nothing but round-off, these presses are straight.
+void expect_same(const PressResponse& found, const PressResponse& expected, double tolerance) {
+  ASSERT_EQ(found.samples().size(), expected.samples().size());
+  ASSERT_FALSE(expected.samples().empty());
+  for (const auto quantity : {&PressSample::indentation, &PressSample::normal_force,
+                              &PressSample::contact_radius, &PressSample::max_pressure}) {
+    double largest = 0.0;
+    for (const PressSample& sample : expected.samples())
+      if (std::isfinite(sample.*quantity)) largest = std::max(largest, std::abs(sample.*quantity));
+    for (std::size_t i = 0; i < expected.samples().size(); ++i) {
+      const double value = found.samples()[i].*quantity, wanted = expected.samples()[i].*quantity;
+      if (std::isfinite(wanted))
+        EXPECT_NEAR(value, wanted, tolerance * largest) << "sample " << i;
+      else
+        EXPECT_FALSE(std::isfinite(value)) << "sample " << i;
+    }
+  }
+  EXPECT_TRUE(std::ranges::any_of(expected.samples(), [](const PressSample& sample) {
+    return sample.normal_force > 0.0;
+  })) << "no touch, no test";
+}
+
+class OldProcessor : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    if (::access(emulator, X_OK) != 0) GTEST_SKIP() << "needs the Debian package qemu-user";
+    ::unsetenv("OPENBLAS_CORETYPE");  // it would choose kernels for another processor
+    ::setenv("OPENBLAS_NUM_THREADS", "1", 1);
+  }
+
+  /// Runs the same command on both processors, each in a folder, with a cache, of its own.
+  void run_both(const std::vector<std::string>& command) const {
+    std::vector<std::string> words = command;
+    words.insert(words.end(), {"--out", "run", "--progress", "off"});
+    expect_success(run_program(native_.path(), words));
+    std::vector<std::string> emulated = {"-cpu", GetParam(), FINGERTIP_PROGRAM};
+    emulated.insert(emulated.end(), words.begin(), words.end());
+    expect_success(run_program(old_.path(), emulated, emulator));
+  }
+
+  /// A tip of 246 masses, quick enough for an emulator.
+  static std::vector<std::string> press(std::initializer_list<std::string> sets) {
+    std::vector<std::string> words = {"press"};
+    for (const char* always : {"lattice.spacing=tip_radius/4", "press.contact=stick"})
+      words.insert(words.end(), {"--set", always});
+    for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
+    return words;
+  }
+
+  void expect_same_response(double tolerance) const {
+    expect_same(PressResponse::read_csv(old_ / "run/response.csv"),
+                PressResponse::read_csv(native_ / "run/response.csv"), tolerance);
+  }
+
+  const TemporaryFolder native_, old_;
+
+ private:
+  static void expect_success(const ProgramResult& result) {
+    EXPECT_EQ(result.code, 0) << result.out << result.err;
+  }
+};
+
+}  // namespace
+
+TEST_P(OldProcessor, PressesANetworkAsThisOneDoes) {
+  run_both(press({"lattice.model=network", "press.depth=0.003 cm", "press.clearance=0.0005 cm"}));
+  expect_same_response(1e-9);
+}
+
+TEST_P(OldProcessor, PressesHookeanSpringsAsThisOneDoes) {
+  run_both(press({"lattice.model=hookean", "press.depth=0.003 cm", "press.clearance=0.0005 cm"}));
+  expect_same_response(1e-9);
+}
+
+TEST_P(OldProcessor, PressesWithScaledMassesAsThisOneDoes) {
+  run_both(press({"lattice.model=network", "run.integrator=mass-scaled", "run.time_step=250 us",
+                  "press.depth=0.01 cm", "press.clearance=0.001 cm"}));
+  expect_same_response(1e-9);
+}
+
+/// The sparse factorisation is OpenBLAS', which has kernels of its own for every processor.
+TEST_P(OldProcessor, FindsTheSameEquilibrium) {
+  run_both(press({"lattice.model=network", "press.mode=static", "press.samples=[\"0.05 cm\"]"}));
+  expect_same_response(1e-9);
+}
+
+/// OpenBLAS falls back to kernels without AVX on a Xeon made after it (family 6, model 207).
+TEST(UnknownProcessor, GetsKernelsThatItCanRun) {
+  if (::access(emulator, X_OK) != 0) GTEST_SKIP() << "needs the Debian package qemu-user";
+  ::unsetenv("OPENBLAS_CORETYPE");
+  const TemporaryFolder folder;
+  const auto doctor = [&](const char* processor) {
+    return run_program(folder.path(), {"-cpu", processor, FINGERTIP_PROGRAM, "doctor"}, emulator)
+        .out;
+  };
+  const std::string unknown = doctor("Haswell,model=207"), known = doctor("Haswell");
+  EXPECT_NE(unknown.find("OpenBLAS with kernels for Haswell (it does not know"), unknown.npos)
+      << unknown;
+  EXPECT_NE(known.find("OpenBLAS with kernels for Haswell\n"), known.npos) << known;
+  ::setenv("OPENBLAS_CORETYPE", "Prescott", 1);
+  const std::string asked = doctor("Haswell,model=207");
+  EXPECT_NE(asked.find("OpenBLAS with kernels for Prescott\n"), asked.npos) << asked;
+}
+
+INSTANTIATE_TEST_SUITE_P(WithoutAvx, OldProcessor, ::testing::ValuesIn(old_processors),
+                         [](const auto& processor) { return std::string(processor.param); });

@@ -1,0 +1,90 @@
+/// A fit whose contact nobody told, from its data to its files: stage by stage, as a session runs
+/// them.
+#include "studies/fits/runs/calibration_stages.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "meshes/base/errors.h"
+#include "studies/jobs/cache.h"
+#include "studies/jobs/json_file.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip;
+using namespace fingertip::studies;
+namespace fs = std::filesystem;
+
+namespace {
+
+class OfTwoContacts : public testing::Test {
+ protected:
+  OfTwoContacts() {
+    std::ofstream csv(folder_ / "press.csv");
+    csv << "indentation [mm];force [mN];sigma [mN]\n";
+    for (const double depth : {0.2, 0.4, 0.6, 0.8})
+      csv << depth << ';' << 30.0 * std::pow(depth, 1.5) << ";0.5\n";
+  }
+
+  /// Carries out the stages; what `answerless` names ends as a press does that finds no
+  /// equilibrium.
+  void run(const std::vector<std::string>& answerless) {
+    CalibrationStages stages(
+        load_config({{},
+                     {"calibration.problem=experiment",
+                      "calibration.data=[\"" + (folder_ / "press.csv").string() + "\"]",
+                      "calibration.parameters=[\"modulus\"]", "calibration.candidates=[]",
+                      "calibration.bias=false", "lattice.spacing=tip_radius/4"},
+                     {}}),
+        "", CalibrationStages::Failed::kept);
+    JobContext context;
+    context.report = [](double, const std::string&) { return true; };
+    context.log = [](const std::string&) {};
+    for (auto jobs = stages.next(run_); !jobs.empty(); jobs = stages.next(run_)) {
+      for (const PlannedJob& planned : jobs) {
+        const fs::path place = run_ / planned.name;
+        fs::create_directories(place);
+        const bool ends = std::ranges::find(answerless, planned.name) == answerless.end();
+        if (ends) planned.job.run(place, context);
+        mark(planned.job, place, ends ? finished : "not converged: beyond 3 mm", 0.0);
+      }
+    }
+  }
+
+  nlohmann::ordered_json calibration() const { return read_json(run_ / "calibration.json"); }
+
+  const TemporaryFolder folder_;
+  const fs::path run_ = folder_ / "run";
+};
+
+}  // namespace
+
+TEST_F(OfTwoContacts, TheOtherOneIsTakenWhereTheFirstHasNoAnswer) {
+  run({"fit"});
+  EXPECT_EQ(calibration()["parameters"],
+            read_json(run_ / "fit_other_contact" / "calibration.json")["parameters"]);
+  EXPECT_NE(calibration()["statement"].get<std::string>().find(
+                "frictionless is taken, since stick contact has no answer (beyond 3 mm)"),
+            std::string::npos)
+      << calibration()["statement"];
+  EXPECT_TRUE(fs::exists(run_ / "material.toml"));
+}
+
+TEST_F(OfTwoContacts, TheFirstOneIsTakenWhereTheOtherHasNoAnswer) {
+  run({"fit_other_contact"});
+  EXPECT_EQ(calibration()["parameters"],
+            read_json(run_ / "fit" / "calibration.json")["parameters"]);
+  EXPECT_TRUE(fs::exists(run_ / "material.toml"));
+}
+
+TEST_F(OfTwoContacts, BothAreNamedWhereNeitherHasAnAnswer) {
+  try {
+    run({"fit", "fit_other_contact"});
+    FAIL() << "an answer out of nothing";
+  } catch (const meshes::NotConverged& error) {
+    const std::string words = error.what();
+    for (const char* part : {"stick: not converged: beyond 3 mm", "frictionless: not converged"})
+      EXPECT_NE(words.find(part), std::string::npos) << words;
+  }
+}
