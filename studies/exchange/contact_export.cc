@@ -8,6 +8,7 @@
 #include "studies/exchange/mujoco_files.h"
 #include "studies/exchange/pressure_law_files.h"
 #include "studies/exchange/sofa_files.h"
+#include "studies/exchange/texts.h"
 #include "studies/files/read_fields.h"
 #include "studies/jobs/json_file.h"
 
@@ -51,11 +52,7 @@ std::vector<Problem> beyond(const Format& format, const LoadedConfig& loaded) {
 /// Which contact model carries this finger: every format, and all models in one table.
 ContactExport all_of_them(const ContactSource& source) {
   ContactExport made;
-  made.readme =
-      "# Which contact model carries this finger\n\n"
-      "A folder per program, each with a README how to use it. The table tells how far the contact "
-      "models of these programs follow the\nfinger where they are fitted to it, and on other "
-      "obstacles.\n\n";
+  made.readme = filled("all_readme.txt");
   made.transfer = transfer_of("all", "Force of a model at rest over that of the continuum",
                               source.lost, source.curves, {});
   for (const auto& [name, format] : formats()) {

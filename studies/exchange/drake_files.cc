@@ -7,6 +7,7 @@
 #include "calibration/contact_laws/hydroelastic_ball.h"
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
+#include "studies/exchange/texts.h"
 
 namespace fingertip::studies::inline exchange {
 
@@ -30,31 +31,13 @@ std::string sdf(const LoadedConfig& loaded, const ContactCurve& curve,
                 const HydroelasticBall& ball) {
   const double mass = loaded.config.press.rubber.density * 4.0 / 3.0 * std::numbers::pi *
                       ball.radius * ball.radius * ball.radius;
-  const double inertia = 0.4 * mass * ball.radius * ball.radius;
-  const std::string sphere =
-      "<geometry><sphere><radius>" + to_text(ball.radius) + "</radius></sphere></geometry>";
-  return fmt::format(
-      "<?xml version=\"1.0\"?>\n"
-      "<!-- {}, fitted to {:.4g} mm on a {}; pole at the origin, SI. README.md says how to use "
-      "it. -->\n"
-      "<sdf version=\"1.7\" xmlns:drake=\"drake.mit.edu\">\n<model name=\"finger\">\n"
-      "  <link name=\"tip\">\n    <pose>0 0 {} 0 0 0</pose>\n"
-      "    <inertial>\n      <mass>{:.9g}</mass>\n"
-      "      <inertia><ixx>{:.9g}</ixx><ixy>0</ixy><ixz>0</ixz><iyy>{:.9g}</iyy><iyz>0</iyz>"
-      "<izz>{:.9g}</izz></inertia>\n    </inertial>\n"
-      "    <visual name=\"visual\">{}</visual>\n"
-      "    <collision name=\"collision\">\n      {}\n"
-      "      <drake:proximity_properties>\n"
-      "        <drake:compliant_hydroelastic/>\n"
-      "        <drake:hydroelastic_modulus>{:.9g}</drake:hydroelastic_modulus>\n"
-      "        <drake:mesh_resolution_hint>{:.9g}</drake:mesh_resolution_hint>\n"
-      "        <drake:hunt_crossley_dissipation>{}</drake:hunt_crossley_dissipation>\n"
-      "        <drake:mu_static>{}</drake:mu_static>\n"
-      "        <drake:mu_dynamic>{}</drake:mu_dynamic>\n"
-      "      </drake:proximity_properties>\n    </collision>\n  </link>\n</model>\n</sdf>\n",
-      loaded.config.press.geometry.shape_name(), 1e3 * curve.forces.indentation.back(), curve.name,
-      to_text(-ball.radius), mass, inertia, inertia, inertia, sphere, sphere, ball.modulus,
-      resolution * ball.radius, to_text(no_bouncing), friction(loaded), friction(loaded));
+  return filled("finger.sdf", fmt::arg("finger", loaded.config.press.geometry.shape_name()),
+                fmt::arg("depth", 1e3 * curve.forces.indentation.back()),
+                fmt::arg("obstacle", curve.name), fmt::arg("radius", to_text(ball.radius)),
+                fmt::arg("mass", mass), fmt::arg("inertia", 0.4 * mass * ball.radius * ball.radius),
+                fmt::arg("modulus", ball.modulus), fmt::arg("edge", resolution * ball.radius),
+                fmt::arg("dissipation", to_text(no_bouncing)),
+                fmt::arg("friction", friction(loaded)));
 }
 
 }  // namespace
@@ -66,14 +49,8 @@ ContactExport drake_export(const ContactSource& source) {
       calibration::fitted_hydroelastic_ball(own.forces, own.obstacle, radius);
   ContactExport made;
   made.files = {{"finger.sdf", sdf(source.loaded, own, ball)}};
-  made.readme = fmt::format(
-      "# A finger for Drake\n\n"
-      "`finger.sdf`: a ball of {:.4g} mm, pole up at the origin, with hydroelastic contact. What "
-      "it touches must be `rigid_hydroelastic`;\nset `contact_model = \"hydroelastic\"`. Its "
-      "pressure is E_h (1 - r/R), r from the ball's centre; E_h = {:.6g} Pa is what meets\nthe "
-      "continuum's forces best. Dissipation is chosen for calm, friction as `press.contact` "
-      "says.\n\n",
-      1e3 * ball.radius, ball.modulus);
+  made.readme = filled("drake_readme.txt", fmt::arg("radius", 1e3 * ball.radius),
+                       fmt::arg("modulus", ball.modulus));
   made.said = fmt::format("hydroelastic modulus {:.4g} Pa of a ball of {:.4g} mm\n", ball.modulus,
                           1e3 * ball.radius);
   made.transfer = transfer_of(

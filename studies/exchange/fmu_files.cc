@@ -10,6 +10,7 @@
 #include "meshes/base/files.h"
 #include "studies/config/keys/key_table.h"
 #include "studies/config/shapes/surface_cache.h"
+#include "studies/exchange/texts.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
 #include "studies/fmu/fmu_variables.h"
@@ -66,35 +67,21 @@ std::string settings_of(const LoadedConfig& loaded, std::vector<FmuExport::File>
 }
 
 std::string description_of(const FmuExport& unit) {
-  std::string text = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<fmiModelDescription fmiVersion=\"2.0\" modelName=\"finger\" guid=\"{}\"\n"
-      "    description=\"a rubber fingertip as a lattice of masses and springs\" "
-      "generationTool=\"fingertip {}\" variableNamingConvention=\"flat\">\n"
-      "  <CoSimulation modelIdentifier=\"{}\" canHandleVariableCommunicationStepSize=\"true\" "
-      "canGetAndSetFMUstate=\"true\"/>\n  <UnitDefinitions>\n"
-      "    <Unit name=\"m\"><BaseUnit m=\"1\"/></Unit>\n"
-      "    <Unit name=\"m/s\"><BaseUnit m=\"1\" s=\"-1\"/></Unit>\n"
-      "    <Unit name=\"rad/s\"><BaseUnit rad=\"1\" s=\"-1\"/></Unit>\n"
-      "    <Unit name=\"N\"><BaseUnit kg=\"1\" m=\"1\" s=\"-2\"/></Unit>\n"
-      "    <Unit name=\"N.m\"><BaseUnit kg=\"1\" m=\"2\" s=\"-2\"/></Unit>\n"
-      "    <Unit name=\"1\"><BaseUnit/></Unit>\n  </UnitDefinitions>\n"
-      "  <DefaultExperiment startTime=\"0\" stepSize=\"{}\"/>\n  <ModelVariables>\n",
-      sha256(unit.settings + program_version()).substr(0, 32), program_version(), identifier,
-      meshes::to_text(unit.period));
-  std::string outputs;
+  std::string variables, outputs;
   for (std::size_t i = 0; i < fmu_variables.size(); ++i) {
     const FmuVariable& variable = fmu_variables[i];
-    text += fmt::format(
+    variables += fmt::format(
         "    <ScalarVariable name=\"{}\" valueReference=\"{}\" causality=\"{}\" "
         "variability=\"continuous\" description=\"{}\"><Real unit=\"{}\"{}/></ScalarVariable>\n",
         variable.name, i, variable.input ? "input" : "output", variable.description, variable.unit,
         variable.input ? " start=\"0\"" : "");
     if (!variable.input) outputs += fmt::format("      <Unknown index=\"{}\"/>\n", i + 1);
   }
-  return text + "  </ModelVariables>\n  <ModelStructure>\n    <Outputs>\n" + outputs +
-         "    </Outputs>\n    <InitialUnknowns>\n" + outputs +
-         "    </InitialUnknowns>\n  </ModelStructure>\n</fmiModelDescription>\n";
+  return filled("modelDescription.xml",
+                fmt::arg("guid", sha256(unit.settings + program_version()).substr(0, 32)),
+                fmt::arg("version", program_version()), fmt::arg("identifier", identifier),
+                fmt::arg("period", meshes::to_text(unit.period)), fmt::arg("variables", variables),
+                fmt::arg("outputs", outputs));
 }
 
 void copy_to(const fs::path& file, const fs::path& to) {
@@ -117,16 +104,13 @@ FmuExport fmu_export(const LoadedConfig& loaded) {
 }
 
 std::string fmu_readme(const FmuExport& unit) {
-  std::string text = fmt::format(
-      "# A finger as a functional mock-up unit\n\n"
-      "`finger.fmu`: FMI 2.0 for co-simulation, Linux on x86-64. The lattice stands clear of the "
-      "obstacle; the master moves its rod by a\nwrench and steps it, best by {} s, the period of "
-      "its control loop.\n\n| variable | | unit | |\n|---|---|---|---|\n",
-      meshes::to_text(unit.period));
+  std::string variables;
   for (const FmuVariable& variable : fmu_variables)
-    text += fmt::format("| `{}` | {} | {} | {} |\n", variable.name,
-                        variable.input ? "input" : "output", variable.unit, variable.description);
-  return text + "\nIt needs the Debian 12 libraries of fingertip where it runs.\n\n";
+    variables +=
+        fmt::format("| `{}` | {} | {} | {} |\n", variable.name, variable.input ? "input" : "output",
+                    variable.unit, variable.description);
+  return filled("fmu_readme.txt", fmt::arg("period", meshes::to_text(unit.period)),
+                fmt::arg("variables", variables));
 }
 
 void write_fmu(const FmuExport& unit, const fs::path& folder) {

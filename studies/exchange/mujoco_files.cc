@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "calibration/contact_laws/soft_contact.h"
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
 #include "studies/exchange/soft_body.h"
+#include "studies/exchange/texts.h"
 
 namespace fingertip::studies::inline exchange {
 
@@ -81,28 +81,27 @@ double stiffest(const SoftContact& contact, double depth) {
   return most;
 }
 
+/// Stiffness over mass [1/s²], and the critical damping.
+std::string solref(double k) {
+  return fmt::format("{:.9g} {:.9g}", -k, -2.0 * std::sqrt(k));
+}
+
+std::string solimp(const SoftContact& contact, int digits) {
+  return fmt::format("{1:.{0}g} {2:.{0}g} {3:.{0}g} {4:.{0}g} {5:.{0}g}", digits, contact.dmin,
+                     contact.dmax, contact.width, contact.midpoint, contact.power);
+}
+
 std::string rigid_model(const LoadedConfig& loaded, const ContactCurve& curve,
                         const SoftContact& contact) {
   const double gain = servo * stiffest(contact, curve.forces.indentation.back());
-  const double step = std::min(longest_step, calm / std::sqrt(gain / carriage));
-  const double k = contact.stiffness / carriage;
   const double radius = meshes::shape_of(loaded.config.press.geometry)->pole_radius();
-  return "<mujoco model=\"rigid finger\">\n" + comment(loaded, curve) +
-         fmt::format(
-             "<compiler angle=\"degree\"/>\n"
-             "<option timestep=\"{:.3g}\" integrator=\"implicitfast\" cone=\"elliptic\" "
-             "gravity=\"0 0 0\"/>\n"
-             "<worldbody>\n  {}\n  <body name=\"finger\" pos=\"0 0 {}\">\n"
-             "    <joint name=\"press\" type=\"slide\" axis=\"0 0 1\"/>\n"
-             "    <geom name=\"tip\" type=\"sphere\" size=\"{}\" mass=\"{}\" "
-             "priority=\"1\" {}\n"
-             "          solref=\"{:.9g} {:.9g}\" solimp=\"{:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\"/>\n"
-             "  </body>\n</worldbody>\n<actuator>\n"
-             "  <position name=\"press\" joint=\"press\" kp=\"{:.6g}\" dampratio=\"1\"/>\n"
-             "</actuator>\n</mujoco>\n",
-             step, obstacle_geom(curve.obstacle), to_text(-radius), to_text(radius),
-             to_text(carriage), friction_of(loaded), -k, -2.0 * std::sqrt(k), contact.dmin,
-             contact.dmax, contact.width, contact.midpoint, contact.power, gain);
+  return filled("finger_rigid.xml", fmt::arg("comment", comment(loaded, curve)),
+                fmt::arg("step", std::min(longest_step, calm / std::sqrt(gain / carriage))),
+                fmt::arg("obstacle", obstacle_geom(curve.obstacle)),
+                fmt::arg("radius", to_text(radius)), fmt::arg("mass", to_text(carriage)),
+                fmt::arg("friction", friction_of(loaded)),
+                fmt::arg("solref", solref(contact.stiffness / carriage)),
+                fmt::arg("solimp", solimp(contact, 9)), fmt::arg("gain", gain));
 }
 
 /// Young's modulus and Poisson's ratio that MuJoCo's flex needs for those of the rubber. Its energy
@@ -124,63 +123,33 @@ std::string flex_model(const LoadedConfig& loaded, const ContactCurve& curve,
   // Force of a vertex: its mass times k r/(1 - d).
   const double k = flex.stiffness * (1.0 - vertex_impedance) / vertex;
   const FlexModuli moduli(flex.youngs_modulus, flex.poissons_ratio);
-  std::string text =
-      "<mujoco model=\"soft finger\">\n" + comment(loaded, curve) +
-      fmt::format("<!-- {}. -->\n", needed) +
-      fmt::format(
-          "<compiler angle=\"degree\"/>\n"
-          "<option timestep=\"{:.3g}\" integrator=\"discrete\" solver=\"CG\" cone=\"elliptic\" "
-          "gravity=\"0 0 0\"/>\n"
-          "<worldbody>\n  <body name=\"obstacle\" mocap=\"true\" pos=\"0 0 {}\">\n    {}\n"
-          "  </body>\n  <flexcomp name=\"finger\" type=\"direct\" dim=\"3\" mass=\"{:.9g}\" "
-          "radius=\"1e-9\"\n    point=\"",
-          std::min(longest_step, calm * std::sqrt(1.0 / k) * 2.0), to_text(flex.body.top()),
-          obstacle_geom(curve.obstacle), mass);
-  text += flex.places() + "\"\n    element=\"" + flex.tetrahedra();
-  fmt::format_to(
-      std::back_inserter(text),
-      "\">\n    <contact {} priority=\"1\" solref=\"{:.9g} {:.9g}\" solimp=\"{} {} 1e-3\" "
-      "selfcollide=\"none\" internal=\"false\"/>\n"
-      "    <elasticity young=\"{:.9g}\" poisson=\"{:.9g}\" damping=\"{:.4g}\"/>\n    <pin id=\"",
-      friction_of(loaded), -k, -2.0 * std::sqrt(k), vertex_impedance, vertex_impedance,
-      moduli.young, moduli.poisson, std::max(rubber.retardation_time, least_damping));
-  return text + flex.held() + "\"/>\n  </flexcomp>\n</worldbody>\n</mujoco>\n";
+  return filled("finger_flex.xml", fmt::arg("comment", comment(loaded, curve)),
+                fmt::arg("needed", needed),
+                fmt::arg("step", std::min(longest_step, calm * std::sqrt(1.0 / k) * 2.0)),
+                fmt::arg("top", to_text(flex.body.top())),
+                fmt::arg("obstacle", obstacle_geom(curve.obstacle)), fmt::arg("mass", mass),
+                fmt::arg("places", flex.places()), fmt::arg("tetrahedra", flex.tetrahedra()),
+                fmt::arg("friction", friction_of(loaded)), fmt::arg("solref", solref(k)),
+                fmt::arg("impedance", vertex_impedance), fmt::arg("young", moduli.young),
+                fmt::arg("poisson", moduli.poisson),
+                fmt::arg("damping", std::max(rubber.retardation_time, least_damping)),
+                fmt::arg("held", flex.held()));
 }
 
 std::string mujoco_readme(const ContactCurve& curve, const SoftContact& contact,
                           const SoftBody* flex) {
-  std::string text = fmt::format(
-      "# A finger for MuJoCo\n\n"
-      "`finger_rigid.xml`: a rigid sphere whose contact gives way as the finger does. The servo "
-      "`press` moves it up against the obstacle:\n"
-      "its target `ctrl` is the indentation in metres, which it reaches within {:.1f} % at rest "
-      "(`qpos`).\n\n"
-      "    F(r) = K r d²/(dmax² (1 - d)),  K = {:.6g} N/m,  d from solimp = {:.4g} {:.4g} {:.4g} "
-      "{:.4g} {:.4g}\n\n"
-      "MuJoCo's `solref` are accelerations, so they depend on what the geom hangs on. On your own "
-      "robot, once the model\nis compiled:\n"
-      "```python\n"
-      "A = model.body_invweight0[model.geom(\"tip\").bodyid[0], 0]  # add that of what is touched\n"
-      "model.geom_solref[model.geom(\"tip\").id] = [-{:.6g} * A, -2 * ({:.6g} * A)**0.5]\n"
-      "```\n"
-      "Damping is the critical one, chosen for calm. The contact is the same on every obstacle; "
-      "the finger is not.\n\n",
-      100.0 / servo, contact.stiffness, contact.dmin, contact.dmax, contact.width, contact.midpoint,
-      contact.power, contact.stiffness, contact.stiffness);
-  if (flex == nullptr) {
-    text += fmt::format(
-        "There is no flex: its forces are foretold under a plane only, and this is a {}.\n\n",
-        curve.name);
-    return text;
-  }
+  const std::string text =
+      filled("mujoco_readme.txt", fmt::arg("precision", 100.0 / servo),
+             fmt::arg("stiffness", contact.stiffness), fmt::arg("solimp", solimp(contact, 4)));
+  if (flex == nullptr)
+    return text + fmt::format(
+                      "There is no flex: its forces are foretold under a plane only, and this is a "
+                      "{}.\n\n",
+                      curve.name);
   const FlexModuli moduli(flex->youngs_modulus, flex->poissons_ratio);
-  return text +
-         fmt::format(
-             "`finger_flex.xml`: a flex, bonded where the finger is (`pin`). The mocap body "
-             "`obstacle` presses: lower its z by the indentation.\n{} MuJoCo 3.14 counts lambda of "
-             "a flex twice (measured), so the file says\nyoung = {:.6g}, poisson = {:.4g}, whose "
-             "forces are those of E and nu.{}\n{}.\n\n",
-             description(*flex), moduli.young, moduli.poisson, flex->limit(curve), needed);
+  return text + filled("mujoco_flex_readme.txt", fmt::arg("body", description(*flex)),
+                       fmt::arg("young", moduli.young), fmt::arg("poisson", moduli.poisson),
+                       fmt::arg("limit", flex->limit(curve)), fmt::arg("needed", needed));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
+#include "studies/exchange/texts.h"
 #include "studies/files/read_fields.h"
 
 namespace fingertip::studies::inline exchange {
@@ -21,21 +22,13 @@ struct Laws {
 };
 
 std::string readme(const PressureLawFile& law) {
-  return fmt::format(
-      "# A finger as pressure over penetration\n\n"
-      "Finger ({}) and obstacle keep their shapes and overlap. Where the overlap is d deep, the "
-      "pressure is p(d), in Pa over m, whichever of these a program can take:\n\n"
-      "| law | p(d) |\n|---|---|\n"
-      "| table | `pressure_table.csv`, straight lines between its rows |\n"
-      "| power | {:.6g} d^{:.4f} |\n"
-      "| polynomial | {:.6g} d + {:.6g} d² + {:.6g} d³ |\n"
-      "| line | {:.6g} d: Drake's hydroelastic modulus of {:.6g} Pa for a body of extent {:.4g} m "
-      "|\n\n"
-      "d is measured along the direction of the press. Fitted to the continuum's forces on a {} "
-      "({} contact) up to {:.4g} mm; deeper nothing is known.\n\n",
-      law.finger, law.stiffness, law.exponent, law.polynomial[0], law.polynomial[1],
-      law.polynomial[2], law.line, law.hydroelastic_modulus, law.extent, law.obstacle, law.contact,
-      1e3 * law.depth);
+  return filled("pressure_law_readme.txt", fmt::arg("finger", law.finger),
+                fmt::arg("stiffness", law.stiffness), fmt::arg("exponent", law.exponent),
+                fmt::arg("first", law.polynomial[0]), fmt::arg("second", law.polynomial[1]),
+                fmt::arg("third", law.polynomial[2]), fmt::arg("line", law.line),
+                fmt::arg("modulus", law.hydroelastic_modulus), fmt::arg("extent", law.extent),
+                fmt::arg("obstacle", law.obstacle), fmt::arg("contact", law.contact),
+                fmt::arg("depth", 1e3 * law.depth));
 }
 
 }  // namespace

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "meshes/base/files.h"
 #include "studies/exchange/soft_body.h"
+#include "studies/exchange/texts.h"
 #include "studies/presses/pictures/vtk_text.h"
 
 namespace fingertip::studies::inline exchange {
@@ -23,32 +23,14 @@ const char* const same_tetrahedra =
 
 std::string scene(const LoadedConfig& loaded, const ContactCurve& curve, const SoftBody& soft) {
   const meshes::Rubber& rubber = loaded.config.press.rubber;
-  std::string text = fmt::format(
-      "<?xml version=\"1.0\"?>\n"
-      "<!-- {}, fitted to {:.4g} mm on a plane; pole up, SI. README.md says how to use it. -->\n"
-      "<Node name=\"root\" gravity=\"0 0 0\" dt=\"{}\">\n"
-      "  <RequiredPlugin pluginName=\"Sofa.Component\"/>\n"
-      "  <DefaultAnimationLoop/>\n"
-      "  <Node name=\"finger\">\n"
-      "    <EulerImplicitSolver rayleighStiffness=\"{}\" rayleighMass=\"0\"/>\n"
-      "    <CGLinearSolver iterations=\"500\" tolerance=\"1e-9\" threshold=\"1e-9\"/>\n"
-      "    <TetrahedronSetTopologyContainer name=\"mesh\" position=\"",
-      loaded.config.press.geometry.shape_name(), 1e3 * curve.forces.indentation.back(), sofa_step,
-      to_text(rubber.retardation_time));
-  text += soft.places() + "\"\n      tetrahedra=\"" + soft.tetrahedra();
-  fmt::format_to(
-      std::back_inserter(text),
-      "\"/>\n    <TetrahedronSetGeometryAlgorithms template=\"Vec3d\"/>\n"
-      "    <MechanicalObject name=\"state\" template=\"Vec3d\"/>\n"
-      "    <UniformMass totalMass=\"{:.9g}\"/>\n"
-      "    <TetrahedronHyperelasticityFEMForceField materialName=\"StVenantKirchhoff\" "
-      "ParameterSet=\"{:.9g} {:.9g}\"/>\n"
-      "    <PlaneForceField name=\"obstacle\" normal=\"0 0 -1\" d=\"{:.9g}\" stiffness=\"{:.9g}\" "
-      "damping=\"0\"/>\n"
-      "    <FixedProjectiveConstraint indices=\"",
-      rubber.density * soft.body.volume(), soft.shear_modulus(), soft.lambda(), -soft.body.top(),
-      soft.stiffness);
-  return text + soft.held() + "\"/>\n  </Node>\n</Node>\n";
+  return filled("finger.scn", fmt::arg("finger", loaded.config.press.geometry.shape_name()),
+                fmt::arg("depth", 1e3 * curve.forces.indentation.back()),
+                fmt::arg("step", sofa_step), fmt::arg("damping", to_text(rubber.retardation_time)),
+                fmt::arg("places", soft.places()), fmt::arg("tetrahedra", soft.tetrahedra()),
+                fmt::arg("mass", rubber.density * soft.body.volume()),
+                fmt::arg("shear", soft.shear_modulus()), fmt::arg("lambda", soft.lambda()),
+                fmt::arg("plane", -soft.body.top()), fmt::arg("stiffness", soft.stiffness),
+                fmt::arg("held", soft.held()));
 }
 
 std::string vtu(const LoadedConfig& loaded, const SoftBody& soft) {
@@ -92,27 +74,16 @@ ContactExport soft_export(const char* format, const std::string& readme,
 
 ContactExport sofa_export(const ContactSource& source) {
   const SoftBody& soft = source.soft();
-  ContactExport made = soft_export(
-      "sofa",
-      fmt::format(
-          "# A finger for SOFA\n\n"
-          "`finger.scn` (SOFA 24.06 and later; before, `FixedProjectiveConstraint` is "
-          "`FixedConstraint`). The plane `obstacle` touches the pole:\nraise its `d`, {:.6g} m at "
-          "first, by the indentation to press. It pushes every vertex behind it with {:.6g} N/m, "
-          "without friction.\n",
-          -soft.body.top(), soft.stiffness),
-      source);
+  ContactExport made = soft_export("sofa",
+                                   filled("sofa_readme.txt", fmt::arg("plane", -soft.body.top()),
+                                          fmt::arg("stiffness", soft.stiffness)),
+                                   source);
   made.files = {{"finger.scn", scene(source.loaded, source.curves.front(), soft)}};
   return made;
 }
 
 ContactExport vtk_export(const ContactSource& source) {
-  ContactExport made = soft_export(
-      "vtk",
-      "# A finger as a mesh\n\n`finger.vtu` (ParaView, meshio): tetrahedra in metres, pole up; per "
-      "cell `youngs_modulus` and `density` (SI),\n`poissons_ratio`; per point `held` (1 where the "
-      "finger is bonded).\n",
-      source);
+  ContactExport made = soft_export("vtk", filled("vtk_readme.txt"), source);
   made.files = {{"finger.vtu", vtu(source.loaded, source.soft())}};
   return made;
 }

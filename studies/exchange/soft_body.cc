@@ -8,6 +8,7 @@
 
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
+#include "studies/exchange/texts.h"
 
 namespace fingertip::studies::inline exchange {
 
@@ -82,12 +83,11 @@ ForetoldModel foretold(const std::string& name, const SoftBody& body) {
 }
 
 std::string description(const SoftBody& body) {
-  return fmt::format(
-      "{} vertices, {} tetrahedra with edges of {:.3g} mm. Linear tetrahedra are too stiff, the "
-      "more the coarser; St. Venant-Kirchhoff's\nlaw is too soft in compression. E = {:.6g} Pa "
-      "(mu = {:.6g}, lambda = {:.6g}) is what meets the continuum's forces best with\nnu = {:.4g}.",
-      body.body.mesh.vertices.size(), body.body.mesh.tetrahedra.size(), 1e3 * body.edge,
-      body.youngs_modulus, body.shear_modulus(), body.lambda(), body.poissons_ratio);
+  return filled("soft_body_readme.txt", fmt::arg("vertices", body.body.mesh.vertices.size()),
+                fmt::arg("tetrahedra", body.body.mesh.tetrahedra.size()),
+                fmt::arg("edge", 1e3 * body.edge), fmt::arg("young", body.youngs_modulus),
+                fmt::arg("shear", body.shear_modulus()), fmt::arg("lambda", body.lambda()),
+                fmt::arg("poisson", body.poissons_ratio));
 }
 
 std::string summary(const SoftBody& body, const ContactCurve& curve) {

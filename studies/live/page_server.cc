@@ -38,6 +38,12 @@ std::string file_content(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::string type_of(const std::filesystem::path& file) {
+  if (file.extension() == ".svg") return "image/svg+xml";
+  const std::string kind = file.extension().string().substr(1);
+  return "text/" + (kind == "js" ? "javascript" : kind) + "; charset=utf-8";
+}
+
 void answer(mg_connection* connection, int port, const Access& access, std::string_view type,
             std::string_view content) {
   const std::string head = fmt::format(
@@ -57,14 +63,14 @@ Credentials credentials_of(const mg_connection* connection) {
 }
 
 PageServer::PageServer(const Reference& reference, const std::filesystem::path& three_folder) {
-  for (const PageFile& file : page_files())
-    files_[std::string(file.path)] = {std::string(file.type), std::string(file.content)};
+  for (const auto& [name, content] : page_files())
+    files_[name == "index.html" ? "/" : "/" + name] = {type_of(name), std::string(content)};
   const std::filesystem::path three =
       three_folder.empty() ? "/usr/share/javascript/three" : three_folder;
-  const char* script = "text/javascript; charset=utf-8";
-  files_["/three.min.js"] = {script, file_content(three / "three.min.js")};
-  files_["/OrbitControls.js"] = {script,
-                                 file_content(three / "examples/js/controls/OrbitControls.js")};
+  for (const char* script : {"three.min.js", "examples/js/controls/OrbitControls.js"}) {
+    const std::string name = std::filesystem::path(script).filename();
+    files_["/" + name] = {type_of(name), file_content(three / script)};
+  }
   for (std::size_t i = 0; i < reference.overlays.size(); ++i) {
     files_[fmt::format("/overlay/{}", i)] = {"application/octet-stream",
                                              encode_overlay(reference.overlays[i])};

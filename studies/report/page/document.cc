@@ -129,7 +129,7 @@ std::string render(const Page& page, const fs::path& figures) {
   root.set("chapters", chapters);
   root.set("not_run", missing);
   root.set("has_not_run", !page.not_run.empty());
-  kainjow::mustache::mustache view{std::string(template_text("report"))};
+  kainjow::mustache::mustache view{std::string(templates().at("report.html.mustache"))};
   if (!view.is_valid()) throw std::runtime_error("report template: " + view.error_message());
   return view.render(root);
 }

@@ -1,12 +1,13 @@
-/// The mustache templates of this folder, built into the program.
+/// The mustache templates of the page and its chapters, built into the program.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 
 namespace fingertip::studies::report::inline page {
 
-/// The text of chapters/`name`.mustache, or of the page itself, "report".
-std::string_view template_text(const std::string& name);
+/// By their file names, "press.mustache".
+const std::map<std::string, std::string_view>& templates();
 
 }  // namespace fingertip::studies::report::inline page

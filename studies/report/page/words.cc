@@ -186,7 +186,7 @@ class Writer {
 }  // namespace
 
 Chapter written(ChapterData data) {
-  const std::string_view text = template_text(data.name);
+  const std::string_view text = templates().at(data.name + ".mustache");
   return written(std::move(data), text);
 }
 
