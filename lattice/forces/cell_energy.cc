@@ -1,7 +1,7 @@
 #include "lattice/forces/cell_energy.h"
 
 #include "lattice/forces/cell_arrays.h"
-#include "lattice/kernels/cell_energy_kernel.h"
+#include "lattice/kernels/cell_kernel.h"
 #include "lattice/kernels/sum_in_portions.h"
 
 namespace fingertip::lattice::inline forces {

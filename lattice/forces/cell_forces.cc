@@ -52,16 +52,18 @@ CellForces::CellForces(const CellLattice& cells, const CellMaterial& material, T
     : cells_(&cells),
       material_(material),
       team_(&team),
-      sweep_(kernel::select_cells(material.kind, {.rates = has_rates(material)}, width)),
-      fading_sweep_(kernel::select_cells(material.kind, {has_rates(material), true}, width)),
-      storing_sweep_(kernel::select_cells(material.kind, {.rates = true, .stores = true}, width)),
-      sums_energy_(has_rates(material)) {
+      sweep_(kernel::select_cells(
+          material.kind, has_rates(material) ? kernel::CellTask::damped : kernel::CellTask::elastic,
+          width)),
+      relaxing_sweep_(kernel::select_cells(material.kind, kernel::CellTask::relaxing, width)),
+      storing_sweep_(kernel::select_cells(material.kind, kernel::CellTask::storing, width)),
+      sums_energy_(material.kind == CellLawKind::network && has_rates(material)) {
   if (sums_energy_) stored_.resize(cells.slabs[0].size() + cells.slabs[1].size());
 }
 
 CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
                              VectorField& force, const kernel::History& history) {
-  return add(history.values == nullptr ? sweep_ : fading_sweep_, displacement, velocity, force,
+  return add(history.values == nullptr ? sweep_ : relaxing_sweep_, displacement, velocity, force,
              history);
 }
 
@@ -73,8 +75,7 @@ CellExtremes CellForces::add(const VectorField& displacement, const VectorField&
   }
   const CellExtremes extremes = add(storing_sweep_, displacement, velocity, force, {});
   energy = std::accumulate(stored_.begin(), stored_.end(), 0.0);
-  if (material_.large_strain() && !(extremes.smallest_jacobian > 0.0))
-    energy = std::numeric_limits<double>::infinity();
+  if (!(extremes.smallest_jacobian > 0.0)) energy = std::numeric_limits<double>::infinity();
   return extremes;
 }
 

@@ -42,7 +42,7 @@ class CellForces {
   CellExtremes add(const VectorField& displacement, const VectorField& velocity, VectorField& force,
                    const kernel::History& history = {});
   /// The same without a history, and what the cells store at this displacement [J], as
-  /// cell_energy() but for round-off: where velocities enter, found on the way.
+  /// cell_energy() but for round-off: of `network` with damping, found on the way.
   CellExtremes add(const VectorField& displacement, const VectorField& velocity, VectorField& force,
                    double& energy);
 
@@ -53,7 +53,7 @@ class CellForces {
   const CellLattice* cells_;
   CellMaterial material_;
   Team* team_;
-  kernel::CellSweep sweep_, fading_sweep_, storing_sweep_;
+  kernel::CellSweep sweep_, relaxing_sweep_, storing_sweep_;
   bool sums_energy_;            ///< whether storing_sweep_ serves
   std::vector<double> stored_;  ///< per slab, so that threads do not change its sum [J]
 };

@@ -315,25 +315,20 @@ struct Hyperelastic : PackAlgebra<Pack> {
     return 4.0 * (largest + 4.0);
   }
 
-  template <CellLawKind Kind>
   [[gnu::always_inline]] static Answer answer(const CellMaterial& m, const Rows& F, const Rows& T,
                                               const Pack& J, const Pack& excess) {
-    if constexpr (Kind == CellLawKind::stretches) {
-      return of_stretches(m, F, J, excess);
-    } else {
-      return of_invariants(m, F, T, J, excess);
-    }
+    return m.energy.law == Law::ogden ? of_stretches(m, F, J, excess)
+                                      : of_invariants(m, F, T, J, excess);
   }
 
   /// Per volume; `margin` as above. `H`: F - 1.
-  template <CellLawKind Kind>
   static Pack energy(const CellMaterial& m, const Rows& H, const Pack& J, const Pack& excess,
                      Pack& margin) {
     const meshes::StrainEnergy& law = m.energy;
     const Pack G = m.shear, log_J = Algebra::log(J), third = Pack(1.0 / 3.0);
     const Pack rest = law.isochoric() ? Pack(0.0) : Pack(reaction(law)) * log_J;
     const Pack volumetric = volume(m, J, log_J).energy;
-    if constexpr (Kind == CellLawKind::stretches) {
+    if (law.law == Law::ogden) {
       const Spectrum s = spectrum(right_cauchy_green(Algebra::plus_one(H)));
       const Pack square[3] = {s.squares.x, s.squares.y, s.squares.z};
       const Pack mean = law.isochoric() ? third * log_J : Pack(0.0);
@@ -343,24 +338,23 @@ struct Hyperelastic : PackAlgebra<Pack> {
       margin = 1.0;
       return G * (p.energy - rest + Pack(0.5) * excess * (p.power[0] + p.power[1] + p.power[2])) +
              volumetric;
-    } else {
-      // By C - 1, which does not cancel at small strain.
-      const Symmetric D = strain(H);
-      const Pack trace = D.xx + D.yy + D.zz,
-                 less = law.isochoric() ? Algebra::expm1(Pack(-2.0 / 3.0) * log_J) : Pack(0.0),
-                 a = Pack(1.0) + less;
-      const Slopes d = slopes(law, a * (trace + excess) + Pack(3.0) * less);
-      margin = d.margin;
-      Pack sum = d.energy - rest;
-      if (law.law == Law::mooney_rivlin) {
-        const Pack squares = D.xx * D.xx + D.yy * D.yy + D.zz * D.zz +
-                             Pack(2.0) * (D.yz * D.yz + D.zx * D.zx + D.xy * D.xy);
-        const Pack I2 = Pack(2.0) * trace + Pack(0.5) * (trace * trace - squares) +
-                        (trace + Pack(3.0)) * excess * third;  // less 3
-        sum += d.second * (a * a * I2 + Pack(3.0) * less * (Pack(2.0) + less));
-      }
-      return G * sum + volumetric;
     }
+    // By C - 1, which does not cancel at small strain.
+    const Symmetric D = strain(H);
+    const Pack trace = D.xx + D.yy + D.zz,
+               less = law.isochoric() ? Algebra::expm1(Pack(-2.0 / 3.0) * log_J) : Pack(0.0),
+               a = Pack(1.0) + less;
+    const Slopes d = slopes(law, a * (trace + excess) + Pack(3.0) * less);
+    margin = d.margin;
+    Pack sum = d.energy - rest;
+    if (law.law == Law::mooney_rivlin) {
+      const Pack squares = D.xx * D.xx + D.yy * D.yy + D.zz * D.zz +
+                           Pack(2.0) * (D.yz * D.yz + D.zx * D.zx + D.xy * D.xy);
+      const Pack I2 = Pack(2.0) * trace + Pack(0.5) * (trace * trace - squares) +
+                      (trace + Pack(3.0)) * excess * third;  // less 3
+      sum += d.second * (a * a * I2 + Pack(3.0) * less * (Pack(2.0) + less));
+    }
+    return G * sum + volumetric;
   }
 };
 

@@ -43,7 +43,7 @@ struct CellArrays {
   std::ptrdiff_t row, plane;
   double spacing;
   CellMaterial material;
-  History history;  ///< read by kernels that know it only
+  History history;  ///< read by `relaxing` sweeps only
 };
 
 /// Extremes over cells that a sweep has seen; rest counts among them. The order of sweeps does not
@@ -61,10 +61,12 @@ struct CellBounds {
 };
 
 /// What enters the forces of cells, and what is found on the way.
-struct CellTask {
-  bool rates = false;   ///< velocities enter; never for `cubic`
-  bool fades = false;   ///< the past enters; laws of large strain only, with rates
-  bool stores = false;  ///< the energy is summed; with rates and without the past only
+enum class CellTask {
+  elastic,   ///< displacements alone; `cubic` is always asked so
+  damped,    ///< velocities as well
+  storing,   ///< the same, and their energy is summed: `network` alone, the only one here that takes
+             ///< so few steps in a period (scaled masses) that a sum apart would be felt
+  relaxing,  ///< velocities and the past: laws of large strain
 };
 
 /// Adds the forces of blocks[begin, end), in their order, and extends `bounds`. Returns what they
@@ -74,10 +76,17 @@ using CellSweep = double (*)(const CellArrays& arrays, const CellBlock* blocks, 
 
 /// The kernel for a law and a number of doubles per register: 2 (every x86-64), 4 (AVX2), 8
 /// (AVX-512), or 0 for the widest the processor has; the caller makes sure that it has the others.
-CellSweep select_cells(CellLawKind law, const CellTask& task, int width);
+CellSweep select_cells(CellLawKind law, CellTask task, int width);
 
-/// That of one compilation (cell_kernel_widths.cc).
+/// Energy of blocks[0, count) [J], forces and velocities are not looked at; infinite where the law
+/// needs J > 0 and has not got it. The same bits for any width.
+using CellEnergy = double (*)(const CellArrays& arrays, const CellBlock* blocks, std::size_t count);
+CellEnergy select_cell_energy(CellLawKind law, int width);
+
+/// Those of one compilation (cell_kernel_widths.cc).
 template <int width>
-CellSweep cells_at(CellLawKind law, const CellTask& task);
+CellSweep cells_at(CellLawKind law, CellTask task);
+template <int width>
+CellEnergy cell_energy_at(CellLawKind law);
 
 }  // namespace fingertip::lattice::inline kernels::kernel

@@ -7,7 +7,6 @@
 #include <experimental/simd>
 #include <limits>
 
-#include "lattice/kernels/cell_energy_kernel.h"
 #include "lattice/kernels/cell_kernel.h"
 #include "lattice/kernels/cell_response.h"
 #include "lattice/kernels/stencil.h"
@@ -151,7 +150,7 @@ struct CellBody : CellResponse<Pack> {
   [[gnu::always_inline]] static void evaluate(const CellArrays& a, const CellBlock& b,
                                               std::size_t number, Border& lows, Border& highs,
                                               Extremes& extremes, Pack* stored) {
-    constexpr bool Rates = task.rates, Fades = task.fades;
+    constexpr bool Rates = task != CellTask::elastic, Fades = task == CellTask::relaxing;
     Carry carry;
     clear(carry);
     for (int chunk = 0; chunk < chunks; ++chunk) {
@@ -178,7 +177,7 @@ struct CellBody : CellResponse<Pack> {
       };
       Pack area = 0.25 * a.spacing * a.spacing;
       if constexpr (!Whole) area = area * cut.fraction();
-      if constexpr (task.stores) {
+      if constexpr (task == CellTask::storing) {
         Pack margin;  // known by the extremes
         stored[chunk] = stored[chunk] + energy_of<Law, Whole>(a, area, u, margin);
       }
@@ -222,7 +221,7 @@ struct CellBody : CellResponse<Pack> {
   template <CellLawKind Law, CellTask task>
   static double sweep(const CellArrays& arrays, const CellBlock* blocks, std::size_t begin,
                       std::size_t end, CellBounds& bounds) {
-    constexpr bool Rates = task.rates;
+    constexpr bool Rates = task != CellTask::elastic;
     const CellArrays a = arrays;  // a copy that no store can alias
     Pack stored[chunks];
     for (Pack& s : stored) s = 0.0;
@@ -246,7 +245,7 @@ struct CellBody : CellResponse<Pack> {
     }
     bounds = {hmin(extremes.jacobian),  hmax(extremes.tangent), hmax(extremes.beyond),
               hmax(extremes.viscosity), hmax(extremes.rate),    hmax(extremes.swiftness)};
-    return task.stores ? total(stored) : 0.0;
+    return task == CellTask::storing ? total(stored) : 0.0;
   }
 
   /// Lane by lane: the same whatever the width.
@@ -266,9 +265,9 @@ struct CellBody : CellResponse<Pack> {
     const Rows H = Response::gradient(u), F = Response::plus_one(H);
     const Pack J = dot(F.x, cross(F.y, F.z));
     if constexpr (Law == CellLawKind::volume) return Response::volume_energy(m, volume, J);
-    if constexpr (Law == CellLawKind::invariants || Law == CellLawKind::stretches) {
+    if constexpr (Law == CellLawKind::hyperelastic) {
       Pack margin;
-      const Pack density = Hyperelastic<Pack>::template energy<Law>(
+      const Pack density = Hyperelastic<Pack>::energy(
           m, H, J, Response::template excess_of<Whole>(m, area, u), margin);
       smallest_jacobian = min(smallest_jacobian, min(J, margin));
       return volume * density;
@@ -323,29 +322,28 @@ struct CellBody : CellResponse<Pack> {
     switch (law) {
       case CellLawKind::cubic: return energy<CellLawKind::cubic>;
       case CellLawKind::volume: return energy<CellLawKind::volume>;
-      case CellLawKind::invariants: return energy<CellLawKind::invariants>;
-      case CellLawKind::stretches: return energy<CellLawKind::stretches>;
+      case CellLawKind::hyperelastic: return energy<CellLawKind::hyperelastic>;
       default: return energy<CellLawKind::network>;
     }
   }
 
   template <CellLawKind Law>
-  static CellSweep without_past(const CellTask& task) {
-    if (!task.rates) return sweep<Law, CellTask{}>;
-    return task.stores ? sweep<Law, CellTask{true, false, true}> : sweep<Law, CellTask{true}>;
+  static CellSweep damped(CellTask task) {
+    return task == CellTask::elastic ? sweep<Law, CellTask::elastic> : sweep<Law, CellTask::damped>;
   }
-  template <CellLawKind Law>
-  static CellSweep large(const CellTask& task) {
-    return task.fades ? sweep<Law, CellTask{true, true}> : without_past<Law>(task);
-  }
-  static CellSweep select(CellLawKind law, const CellTask& task) {
+  static CellSweep select(CellLawKind law, CellTask task) {
+    using Kind = CellLawKind;
+    const bool relaxes = task == CellTask::relaxing;
     switch (law) {
-      case CellLawKind::cubic: return sweep<CellLawKind::cubic, CellTask{}>;
-      case CellLawKind::volume: return without_past<CellLawKind::volume>(task);
-      case CellLawKind::invariants: return large<CellLawKind::invariants>(task);
-      case CellLawKind::stretches: return large<CellLawKind::stretches>(task);
-      default: return large<CellLawKind::network>(task);
+      case Kind::cubic: return sweep<Kind::cubic, CellTask::elastic>;
+      case Kind::volume: return damped<Kind::volume>(task);
+      case Kind::hyperelastic:
+        return relaxes ? sweep<Kind::hyperelastic, CellTask::relaxing>
+                       : damped<Kind::hyperelastic>(task);
+      default: break;
     }
+    if (task == CellTask::storing) return sweep<Kind::network, CellTask::storing>;
+    return relaxes ? sweep<Kind::network, CellTask::relaxing> : damped<Kind::network>(task);
   }
 };
 

@@ -6,10 +6,10 @@ namespace fingertip::lattice::inline kernels::kernel {
 using Pack = std::experimental::native_simd<double>;
 
 template <int width>
-CellSweep cells_at(CellLawKind law, const CellTask& task) {
+CellSweep cells_at(CellLawKind law, CellTask task) {
   return CellBody<Pack>::select(law, task);
 }
-template CellSweep cells_at<int(Pack::size())>(CellLawKind, const CellTask&);
+template CellSweep cells_at<int(Pack::size())>(CellLawKind, CellTask);
 
 template <int width>
 CellEnergy cell_energy_at(CellLawKind law) {

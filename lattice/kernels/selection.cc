@@ -1,7 +1,6 @@
 // Which compilation of each kernel serves.
 #include "lattice/kernels/bond_kernel.h"
 #include "lattice/kernels/by_width.h"
-#include "lattice/kernels/cell_energy_kernel.h"
 #include "lattice/kernels/cell_kernel.h"
 #include "lattice/kernels/contact_kernel.h"
 #include "lattice/kernels/kernel.h"
@@ -16,7 +15,7 @@ MoveParticles select_move(int width) {
   return by_width(width, move_at<2>, move_at<4>, move_at<8>)();
 }
 
-CellSweep select_cells(CellLawKind law, const CellTask& task, int width) {
+CellSweep select_cells(CellLawKind law, CellTask task, int width) {
   return by_width(width, cells_at<2>, cells_at<4>, cells_at<8>)(law, task);
 }
 

@@ -31,11 +31,9 @@ CellMaterial volume_material(double kappa, bool finite) {
 
 CellMaterial network_material(const meshes::StrainEnergy& energy, double shear, double lambda,
                               double share) {
-  using meshes::RubberLaw;
   CellMaterial material;
-  material.kind = energy == meshes::StrainEnergy() ? CellLawKind::network
-                  : energy.law == RubberLaw::ogden ? CellLawKind::stretches
-                                                   : CellLawKind::invariants;
+  material.kind =
+      energy == meshes::StrainEnergy() ? CellLawKind::network : CellLawKind::hyperelastic;
   material.energy = energy;
   material.volumetric =
       energy.isochoric() ? lambda + 2.0 / 3.0 * shear : lambda - energy.lambda_share() * shear;

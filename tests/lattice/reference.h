@@ -128,7 +128,7 @@ Number hyperelastic_density(const CellMaterial& m, const Field<Number>& u, const
   const Number I2 = 0.5 * (I1 * I1 - sum_of_squares(C));
   const auto& s = m.energy.shape;
   const double G = m.shear, k = m.volumetric;
-  if (m.kind == CellLawKind::invariants) {
+  if (m.energy.law == meshes::RubberLaw::mooney_rivlin) {
     const Number a = std::exp(-2.0 / 3.0 * log_J);
     return 0.5 * G * (1.0 - s[0]) * (a * (I1 + excess) - 3.0) +
            0.5 * G * s[0] * (a * a * (I2 + I1 * excess / 3.0) - 3.0) +

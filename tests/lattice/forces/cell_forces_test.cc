@@ -174,7 +174,7 @@ TEST(CellForces, AreThoseOfTheStaticsFibresAndCells) {
 TEST(CellForces, LinearDisplacementIsExactInCutCells) {
   const Scene scene = tip();
   const Matrix3d H = some_gradient();
-  const CellMaterial m = material(CellLawKind::cubic);
+  const CellMaterial m = material(Law::cubic);
   Matrix3d P = m.c44 * (H + H.transpose());
   P.diagonal() = (m.c11 - m.c12) * H.diagonal() + Vector3::Constant(m.c12 * H.trace());
   const VectorField u = on_particles(scene, [&](const Vector3& x) { return Vector3(H * x); });
@@ -217,7 +217,7 @@ TEST(CellForces, AbsentCellsSeeNothingOfWhatLiesAtTheirCorners) {
 }
 
 TEST(CellLattice, NeedsRoomAroundTheCellsAndOrder) {
-  const CellMaterial m = material(CellLawKind::network);
+  const CellMaterial m = material(Law::network);
   for (std::size_t d = 0; d < 3; ++d) {
     Scene tight = block(3, 2, 2);
     --tight.grid.size[d];
@@ -234,7 +234,7 @@ TEST(CellLattice, NeedsRoomAroundTheCellsAndOrder) {
 
 TEST(CellLattice, BlocksHoldEveryCellOnceAndPlanesEveryBlock) {
   const Scene scene = tip(8e-4);
-  const CellLattice cells = scene.of(material(CellLawKind::cubic));
+  const CellLattice cells = scene.of(material(Law::cubic));
   double fraction = 0.0, expected = 0.0;
   bool whole = false;
   std::set<std::size_t> taken;

@@ -67,7 +67,7 @@ Vector3 force_on_face(const Scene& scene, const VectorField& force) {
 TEST(CellForces, TurnWithTheBody) {
   const Matrix3d Q = Eigen::AngleAxisd(2.1, Vector3(1.0, -2.0, 0.5).normalized()).matrix();
   for_all_scenes([&](const Scene& scene) {
-    for (const CellLawKind kind : finite_laws) {
+    for (const Law kind : finite_laws) {
       const CellLattice cells = scene.of(material(kind, tau));
       const VectorField u = strained(scene, 6), v = random_field(scene, 0.3, 7);
       VectorField turned(scene.grid.points()), turned_v = turned, turned_force = turned;
@@ -88,7 +88,7 @@ TEST(CellForces, TurnWithTheBody) {
 
 TEST(CellForces, RigidMotionOfADeformedBodyIsNotDamped) {
   for_all_scenes([](const Scene& scene) {
-    for (const CellLawKind kind : finite_laws) {
+    for (const Law kind : finite_laws) {
       const CellLattice cells = scene.of(material(kind, tau));
       const VectorField u = strained(scene, 8), rest(scene.grid.points());
       const Vector3 spin(30.0, -10.0, 20.0);
@@ -131,7 +131,7 @@ TEST(CellForces, BalanceInForceAndTorque) {
 
 TEST(CellForces, DampersDissipate) {
   for_all_scenes([](const Scene& scene) {
-    for (const CellLawKind kind : finite_laws) {
+    for (const Law kind : finite_laws) {
       const CellLattice cells = scene.of(material(kind, tau));
       for (unsigned seed = 20; seed < 30; ++seed) {
         const VectorField u = strained(scene, seed), v = random_field(scene, 0.5, seed + 100);
@@ -144,9 +144,9 @@ TEST(CellForces, DampersDissipate) {
 
 TEST(CellForces, DampingAtRestIsTauTimesTheStiffness) {
   for_all_scenes([](const Scene& scene) {
-    for (const CellLawKind kind : finite_laws) {
+    for (const Law kind : finite_laws) {
       const CellMaterial m = material(kind, tau);
-      CellMaterial linear = material(CellLawKind::cubic);
+      CellMaterial linear = material(Law::cubic);
       const bool network = m.large_strain();
       linear.c44 = network ? m.shear : 0.0;
       linear.c12 = network ? m.lambda : m.kappa;
@@ -165,7 +165,7 @@ TEST(CellForces, DampingAtRestIsTauTimesTheStiffness) {
 TEST(CellForces, HomogeneousDeformationHasTheStressOfLawA) {
   const Scene scene = block(10, 3, 2);
   const double area = 6.0 * scene.grid.spacing * scene.grid.spacing;
-  const CellMaterial m = material(CellLawKind::network);
+  const CellMaterial m = material(Law::network);
   const CellLattice cells = scene.of(m);
   const auto stress_of = [&](const Matrix3d& F) -> Vector3 {
     const VectorField u = on_particles(
@@ -203,7 +203,7 @@ TEST(CellForces, LogarithmIsGoodToOneUnitInTheLastPlace) {
 
 TEST(CellForces, ExtremesOfAKnownDeformation) {
   const Scene scene = block(10, 3, 2);
-  const auto extremes = [&](CellLawKind kind, double stretch, double rate) {
+  const auto extremes = [&](Law kind, double stretch, double rate) {
     const auto along_x = [&](double factor) {
       return on_particles(scene, [=](const Vector3& x) { return Vector3(factor * x.x(), 0, 0); });
     };
@@ -211,22 +211,22 @@ TEST(CellForces, ExtremesOfAKnownDeformation) {
     forces(scene.of(material(kind, tau)), along_x(stretch - 1.0), along_x(rate), &found);
     return found;
   };
-  const CellMaterial m = material(CellLawKind::network, tau);
-  const CellExtremes network = extremes(CellLawKind::network, 0.4, 1.2);
+  const CellMaterial m = material(Law::network, tau);
+  const CellExtremes network = extremes(Law::network, 0.4, 1.2);
   const double g = 1.0 / 0.16, pressure = m.shear - m.lambda * std::log(0.4);
   EXPECT_NEAR(network.smallest_jacobian, 0.4, 1e-13);
   EXPECT_NEAR(network.thickening, g, 1e-11);
   EXPECT_NEAR(network.stiffening,
               (m.shear + (pressure + m.lambda) * g) / (m.lambda + 2.0 * m.shear), 1e-11);
   EXPECT_NEAR(network.fastest, 3.0, 1e-11);
-  const CellExtremes volume = extremes(CellLawKind::volume, 0.4, 1.2);
+  const CellExtremes volume = extremes(Law::volume, 0.4, 1.2);
   EXPECT_NEAR(volume.smallest_jacobian, 0.4, 1e-13);
   EXPECT_NEAR(volume.thickening, 1.0, 1e-12);
   EXPECT_NEAR(volume.stiffening, 1.0 + 0.6 / 0.4, 1e-12);
   EXPECT_NEAR(volume.fastest, 3.0, 1e-11);
-  EXPECT_NEAR(extremes(CellLawKind::network, -0.5, 0.0).smallest_jacobian, -0.5, 1e-13);
-  expect_equal(extremes(CellLawKind::cubic, 0.4, 1.2), CellExtremes{});
-  expect_equal(extremes(CellLawKind::network, 1.0, 0.0), CellExtremes{});
+  EXPECT_NEAR(extremes(Law::network, -0.5, 0.0).smallest_jacobian, -0.5, 1e-13);
+  expect_equal(extremes(Law::cubic, 0.4, 1.2), CellExtremes{});
+  expect_equal(extremes(Law::network, 1.0, 0.0), CellExtremes{});
 }
 
 /// What the kernel and the laws of one point make of every law and cost of volume.
@@ -314,12 +314,12 @@ TEST(CellForces, StiffeningBoundsTheTangent) {
   std::mt19937 generator(5);
   std::normal_distribution<double> normal;
   for (const double ratio : {0.0, 0.5, 7.0}) {
-    CellMaterial network = material(CellLawKind::network);
+    CellMaterial network = material(Law::network);
     network.lambda = ratio * network.shear;
     meshes::Rubber rubber;
     rubber.shear_modulus = network.shear;
     rubber.youngs_modulus = network.shear * (3.0 * ratio + 2.0) / (ratio + 1.0);
-    const CellMaterial volume = material(CellLawKind::volume);
+    const CellMaterial volume = material(Law::volume);
     const lattice::CellLaw laws[] = {network_law(rubber, 0.0), volume_law(volume.kappa, true)};
     for (int i = 0; i < 300; ++i) {
       const double size = i % 2 == 0 ? 0.2 : 0.5;
