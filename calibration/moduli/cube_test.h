@@ -1,7 +1,7 @@
 /// Virtual material tests: a finite cube of the lattice, loaded by tractions on all six faces.
 #pragma once
 
-#include "lattice/forces/cube.h"
+#include "lattice/statics/cube.h"
 
 namespace fingertip::calibration::inline moduli {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "calibration/moduli/cube_test.h"
-#include "lattice/forces/cube.h"
+#include "lattice/statics/cube.h"
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 

@@ -84,8 +84,9 @@ void hold_mirror_planes(double spacing, int sectors, LatticeBody& body) {
   }
 }
 
-/// Particles and springs of a published lattice; `number` takes the particle at every grid point.
-LatticeBody published_springs(const LatticeModel& model, std::vector<std::uint32_t>& number) {
+/// Particles and springs of a moving lattice; `number` takes the particle at every grid point.
+LatticeBody springs_of(const LatticeModel& model, std::vector<std::uint32_t>& number) {
+  number.assign(model.points(), GridCells::none);
   LatticeBody body;
   body.finite = model.kinematics == Kinematics::finite;
   for (const std::uint32_t point : model.particles) {
@@ -126,8 +127,8 @@ LatticeBody body_of(const LatticeModel& model, const Geometry& geometry, const R
                                 "only the published lattice is pressed as it stands at equilibrium",
                                 "take build_cut_tip, which cuts the cells of the other models"});
   }
-  std::vector<std::uint32_t> number(model.points(), GridCells::none);
-  LatticeBody body = published_springs(model, number);
+  std::vector<std::uint32_t> number;
+  LatticeBody body = springs_of(model, number);
   const double a = model.spacing();
   const auto shape = meshes::shape_of(geometry);
   const auto normal = [&](meshes::ProfileSurface surface, const Vector3& rest) {
@@ -144,6 +145,23 @@ LatticeBody body_of(const LatticeModel& model, const Geometry& geometry, const R
     body.outer.push_back(tie_to_particle(number[point], rest,
                                          normal(meshes::ProfileSurface::contact, rest), a * a,
                                          particle_tie * rubber.youngs_modulus * a));
+  }
+  return body;
+}
+
+LatticeBody block_body(const LatticeModel& model) {
+  std::vector<std::uint32_t> number;
+  LatticeBody body = springs_of(model, number);
+  if (model.cell_lattice.empty()) return body;
+  body.law = {model.cell_lattice.material, model.grid.axes};
+  const double a = model.spacing();
+  const auto gradients =
+      mean_gradients(corner_moments(whole_cells({0, 0, 0}, {1, 1, 1}).front()), a, model.grid.axes);
+  for (const std::uint32_t lowest : model.cells) {
+    MeanCell cell{{}, gradients, a * a * a};
+    for (int c = 0; c < 8; ++c)
+      cell.corners[std::size_t(c)] = number[cell_corner(model.grid.size, lowest, c)];
+    body.cells.push_back(cell);
   }
   return body;
 }

@@ -8,7 +8,6 @@
 #include <random>
 #include <string>
 
-#include "lattice/forces/stiffness.h"
 #include "lattice/model/cut_model.h"
 #include "lattice/model/formulation.h"
 #include "lattice/model/model.h"

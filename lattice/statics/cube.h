@@ -7,7 +7,7 @@
 
 #include "lattice/model/constants.h"
 
-namespace fingertip::lattice::inline forces {
+namespace fingertip::lattice::inline statics {
 
 /// n x n x n whole cells, free on all sides, in small kinematics.
 struct CubeLattice {
@@ -27,4 +27,4 @@ struct CubeLattice {
 CubeLattice cube_lattice(ModelKind kind, const SpringConstants& constants, double spacing,
                          int cells);
 
-}  // namespace fingertip::lattice::inline forces
+}  // namespace fingertip::lattice::inline statics
