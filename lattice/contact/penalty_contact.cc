@@ -71,12 +71,6 @@ PenaltyContact::PenaltyContact(const LatticeModel& model, const Plane& plane, co
   broad_phase(arrays(rest, plane, 0.0, {}), shape_->groups.size());
 }
 
-kernel::GapKind PenaltyContact::gap_kind() const {
-  if (plane_.obstacle.is_plane()) return kernel::GapKind::flat;
-  return model_->kinematics == Kinematics::finite ? kernel::GapKind::exact
-                                                  : kernel::GapKind::projected;
-}
-
 kernel::ContactArrays PenaltyContact::arrays(const State& state, const Plane& now, double step,
                                              const Pose& rod) {
   kernel::ContactArrays a{};
@@ -94,9 +88,9 @@ kernel::ContactArrays PenaltyContact::arrays(const State& state, const Plane& no
   a.ahead = step;
   a.friction = law_.friction;
   a.law = model_->contact;
-  a.gap_kind = gap_kind();
-  if (a.gap_kind == kernel::GapKind::flat) return a;
   a.obstacle = plane_.obstacle.form();
+  if (a.obstacle.flat) return a;
+  a.exact = model_->kinematics == Kinematics::finite;
   const Eigen::Matrix3d axes = plane_.turned.conjugate() * plane_.axes();
   Vector3::Map(a.tangent[0]) = axes.col(0);
   Vector3::Map(a.tangent[1]) = axes.col(1);
@@ -280,7 +274,7 @@ double PenaltyContact::closing_speed(const State& state) {
 /// nearer; all, if that is less than a step's way or nobody knows.
 std::size_t PenaltyContact::looks_per_step(const State& state, double step) {
   // What moves along a plane can come nearer to another obstacle.
-  if (gap_kind() != kernel::GapKind::flat) step = 0.0;
+  if (!plane_.obstacle.is_plane()) step = 0.0;
   double closing = closing_speed(state);
   // Of a moving plane toward any point: its velocity is linear in the place.
   const double turning = plane_.normal.cross(plane_.angular_velocity).norm();

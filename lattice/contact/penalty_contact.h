@@ -89,7 +89,6 @@ class PenaltyContact {
   std::vector<std::uint8_t> held() const;
 
  private:
-  kernel::GapKind gap_kind() const;
   kernel::ContactArrays arrays(const State& state, const Plane& now, double step, const Pose& rod);
   void broad_phase(const kernel::ContactArrays& arrays, std::size_t looks);
   void enter(std::uint32_t group);

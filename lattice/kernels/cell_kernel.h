@@ -62,10 +62,11 @@ struct CellBounds {
 
 /// What enters the forces of cells, and what is found on the way.
 enum class CellTask {
-  elastic,   ///< displacements alone; `cubic` is always asked so
-  damped,    ///< velocities as well
-  storing,   ///< the same, and their energy is summed: `network` alone, the only one here that takes
-             ///< so few steps in a period (scaled masses) that a sum apart would be felt
+  elastic,  ///< displacements alone; `cubic` is always asked so
+  damped,   ///< velocities as well
+  /// The same, and their energy is summed: `network` alone, whose steps may be so few in a period
+  /// (scaled masses) that a sum apart would be felt.
+  storing,
   relaxing,  ///< velocities and the past: laws of large strain
 };
 

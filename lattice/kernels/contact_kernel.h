@@ -52,13 +52,6 @@ struct PlaneFrame {
   double shift[3];
 };
 
-/// How a point's gap is told (statics/static_contact.h has the same three).
-enum class GapKind {
-  flat,       ///< distance from the plane
-  projected,  ///< less the obstacle's height at the place of rest
-  exact,      ///< distance from the obstacle
-};
-
 struct ContactArrays {
   const double* displacement[3];  ///< per grid point, along the grid's axes [m]
   const double* velocity[3];      ///< [m/s]
@@ -70,10 +63,12 @@ struct ContactArrays {
   double ahead;           ///< length of the step [s]
   double friction;        ///< Coulomb's coefficient
   TieLaw law;             ///< of all ties
-  GapKind gap_kind;
+  /// What gaps are told from: a plane, or else an obstacle, by the distance from it (`exact`) or
+  /// the distance from the plane less its height at the place of rest (statics/static_contact.h).
   meshes::ObstacleForm obstacle;
+  bool exact;
   double tangent[2][3];  ///< t1 and t2 of the obstacle, in the plane's own axes
-  PlaneFrame carried;    ///< of a point at rest as the rod carries it (projected)
+  PlaneFrame carried;    ///< of a point at rest as the rod carries it
 };
 
 enum class Grip { frictionless, stick, coulomb };

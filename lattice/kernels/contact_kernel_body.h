@@ -119,15 +119,14 @@ struct ContactBody : Packs<Pack> {
     Pack gap;
     Vector normal;
   };
-  template <GapKind kind>
   [[gnu::always_inline]] static GapAndNormal gap_and_normal(const ContactArrays& a,
                                                             const ContactGroup& group,
                                                             const Vector& place, std::size_t lane) {
     const Vector n = broadcast(a.normal);
     const Pack over = dot(n, place);
-    if constexpr (kind == GapKind::flat) return {over, n};
+    if (a.obstacle.flat) return {over, n};
     const Vector t1 = broadcast(a.tangent[0]), t2 = broadcast(a.tangent[1]);
-    if constexpr (kind == GapKind::projected) {
+    if (!a.exact) {
       const Vector rest = in_frame(a.carried, load(group.rest, lane));
       const Pack height = meshes::obstacle_height(a.obstacle, dot(t1, rest), dot(t2, rest));
       return {over - height, n};
@@ -136,8 +135,7 @@ struct ContactBody : Packs<Pack> {
     return {hit.gap, hit.normal[0] * t1 + hit.normal[1] * t2 + hit.normal[2] * n};
   }
 
-  template <GapKind kind>
-  static double look_for(const ContactArrays& a, double margin, std::size_t number) {
+  static double look(const ContactArrays& a, double margin, std::size_t number) {
     const ContactGroup& group = a.groups[number];
     const Trilinear then = displacement(a, group, a.ahead);
     std::array<Vector, parts> place;
@@ -145,7 +143,7 @@ struct ContactBody : Packs<Pack> {
     double least = 1e300;
     for (std::size_t part = 0; part < parts; ++part) {
       place[part] = places(group, then, a.then, part * width);
-      gap[part] = gap_and_normal<kind>(a, group, place[part], part * width).gap;
+      gap[part] = gap_and_normal(a, group, place[part], part * width).gap;
       const double smallest = std::experimental::hmin(gap[part]);
       least = smallest < least ? smallest : least;
     }
@@ -215,7 +213,6 @@ struct ContactBody : Packs<Pack> {
   }
 
   /// Anchors what crossed the plane in this step, linearly interpolated, and lets go what left it.
-  template <GapKind kind>
   [[gnu::always_inline]] static void look_at(const ContactArrays& a, const ContactGroup& group,
                                              const Vector& place, const Pack& gap, std::size_t lane,
                                              ContactMemory& memory) {
@@ -224,8 +221,8 @@ struct ContactBody : Packs<Pack> {
     const Mask crosses = !was && gap < 0.0, leaves = was && gap > 0.0;
     const Pack fraction = choose(crosses, before / (before - gap), Pack(0.0));
     Vector crossing = (1.0 - fraction) * load(memory.place, lane) + fraction * place;
-    if constexpr (kind == GapKind::exact) {  // not quite on a surface that is curved
-      const GapAndNormal left = gap_and_normal<kind>(a, group, crossing, lane);
+    if (a.exact) {  // not quite on a surface that is curved
+      const GapAndNormal left = gap_and_normal(a, group, crossing, lane);
       crossing += -left.gap * left.normal;
     }
     store(memory.anchor, lane, choose(crosses, crossing, load(memory.anchor, lane)));
@@ -291,7 +288,7 @@ struct ContactBody : Packs<Pack> {
     for (const double e : energy) found.energy += e;
   }
 
-  template <Grip grip, GapKind kind>
+  template <Grip grip>
   static GroupFindings apply_law(const ContactArrays& a, std::size_t number) {
     const ContactGroup& group = a.groups[number];
     ContactMemory& memory = a.memory[number];
@@ -303,17 +300,16 @@ struct ContactBody : Packs<Pack> {
     for (std::size_t lane = 0; lane < lanes; lane += width) {
       if constexpr (grip == Grip::coulomb) {
         const Vector place = places(group, now, a.now, lane);
-        return_mapping(a, place, gap_and_normal<kind>(a, group, place, lane), lane, memory);
+        return_mapping(a, place, gap_and_normal(a, group, place, lane), lane, memory);
       }
       const Vector place = places(group, then, a.then, lane);
-      const GapAndNormal ahead = gap_and_normal<kind>(a, group, place, lane);
-      if constexpr (grip != Grip::frictionless)
-        look_at<kind>(a, group, place, ahead.gap, lane, memory);
+      const GapAndNormal ahead = gap_and_normal(a, group, place, lane);
+      if constexpr (grip != Grip::frictionless) look_at(a, group, place, ahead.gap, lane, memory);
       store(memory.place, lane, place);
       store(memory.gap, lane, ahead.gap);
       Stretch tie = stretches<grip>(a, place, ahead, memory, lane);
       // Particles know one normal, the plane's: across another one a tie counts in full.
-      if constexpr (kind == GapKind::exact) tie.share = tie.push.tangent;
+      if (a.exact) tie.share = tie.push.tangent;
       note(a, group, tie, lane, memory, pulls, found);
       const double least = std::experimental::hmin(ahead.gap);
       found.smallest_gap = least < found.smallest_gap ? least : found.smallest_gap;
@@ -349,26 +345,11 @@ struct ContactBody : Packs<Pack> {
     }
   }
 
-  template <GapKind kind>
-  static GroupFindings apply_to(const ContactArrays& a, Grip grip, std::size_t group) {
-    switch (grip) {
-      case Grip::frictionless: return apply_law<Grip::frictionless, kind>(a, group);
-      case Grip::stick: return apply_law<Grip::stick, kind>(a, group);
-      default: return apply_law<Grip::coulomb, kind>(a, group);
-    }
-  }
   static GroupFindings apply(const ContactArrays& a, Grip grip, std::size_t group) {
-    switch (a.gap_kind) {
-      case GapKind::flat: return apply_to<GapKind::flat>(a, grip, group);
-      case GapKind::projected: return apply_to<GapKind::projected>(a, grip, group);
-      default: return apply_to<GapKind::exact>(a, grip, group);
-    }
-  }
-  static double look(const ContactArrays& a, double margin, std::size_t group) {
-    switch (a.gap_kind) {
-      case GapKind::flat: return look_for<GapKind::flat>(a, margin, group);
-      case GapKind::projected: return look_for<GapKind::projected>(a, margin, group);
-      default: return look_for<GapKind::exact>(a, margin, group);
+    switch (grip) {
+      case Grip::frictionless: return apply_law<Grip::frictionless>(a, group);
+      case Grip::stick: return apply_law<Grip::stick>(a, group);
+      default: return apply_law<Grip::coulomb>(a, group);
     }
   }
 
