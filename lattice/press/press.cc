@@ -75,6 +75,7 @@ class Press {
 
  private:
   double indentation() const;
+  const LatticeModel& model() const { return finger_.finger().model(); }
   void make_controller();
   void identify(Controller& trial, const std::function<bool()>& done, double longest);
   double lateral() const;
@@ -91,6 +92,11 @@ class Press {
     return {finger_.finger().kinetic_energy(), finger_.finger().elastic_energy()};
   }
   void update();
+  FingerPicture picture() {
+    return pictures_.draw(bare_picture(finger_.finger(), indentation()),
+                          particles_of(finger_.finger()));
+  }
+  void look();
   double expected_time() const;
   void report(bool in_any_case);
   [[noreturn]] void give_up(const std::string& why);
@@ -107,6 +113,10 @@ class Press {
   const meshes::PressMotion motion_;
   PressRecorder recorder_;
   PressPictures pictures_;
+  const PressFilm& film_;
+  double film_interval_ = 0.0;              // [s]; 0: no film
+  int shown_ = 0;                           // pictures of the film
+  double last_shown_ = 0.0;                 // [s]
   std::unique_ptr<Controller> controller_;  // null when the motion is prescribed
   std::unique_ptr<ControlLoop> loop_;
   PressInstant start_of_step_;
@@ -123,7 +133,10 @@ Press::Press(const PressSetup& setup, const PressObserver& observer, const Press
       finger_(computed_finger(setup, way_)),
       motion_(setup.protocol),
       recorder_(setup.protocol, motion_, finger_.finger().plane(), finger_.finger(), outcome_),
-      pictures_(setup, finger_.finger(), expected_time(), film, outcome_) {
+      pictures_(setup, model().sector.count(), particles_at_rest(model()).places,
+                model().sector.count() == 1 ? &model() : nullptr, Moment::before_contact, outcome_),
+      film_(film) {
+  if (film_.pictures > 1) film_interval_ = expected_time() / (film_.pictures - 1);
   outcome_.census = take_census(setup, pictures_.model());
   outcome_.sectors = finger_.setup().sectors;
   outcome_.step = finger_.step_report(setup.controller.period);
@@ -142,7 +155,15 @@ Press::Press(const PressSetup& setup, const PressObserver& observer, const Press
 void Press::update() {
   if (awaits_energy_) recorder_.set_energy(present_energy());
   recorder_.update(wall_time());
-  pictures_.update();
+}
+
+/// To be called at the start and after every step.
+void Press::look() {
+  if (pictures_.due(indentation(), finger_.finger().touching() > 0)) pictures_.keep(picture());
+  if (film_interval_ <= 0.0 || finger_.time() < shown_ * film_interval_) return;
+  film_.show(pictures_.view(), picture());
+  ++shown_;
+  last_shown_ = finger_.time();
 }
 
 /// When the press will end if all goes well [s].
@@ -197,7 +218,7 @@ bool Press::after_step() {
                                     : start_of_step_.indentation >= setup_.protocol.depth;
   const bool late = setup_.duration && finger_.time() >= time_limit_;
   start_of_step_ = now();
-  pictures_.look(start_of_step_.indentation);
+  look();
   return !done && !late;
 }
 
@@ -284,7 +305,7 @@ void Press::give_up(const std::string& why) {
 PressOutcome Press::run() {
   started_ = last_report_ = Clock::now();
   processor_start_ = processor_time();
-  pictures_.look(indentation());
+  look();
   try {
     while (run_period()) continue;
   } catch (const CrushedCells& error) {
@@ -299,7 +320,10 @@ PressOutcome Press::run() {
   outcome_.step = finger_.step_report(setup_.controller.period);
   outcome_.steps = finger_.step_count();
   outcome_.force_evaluations = finger_.finger().force_evaluations();
-  pictures_.finish(indentation());
+  pictures_.finish(picture());
+  // The end may come just before or after the time that was expected.
+  if (film_interval_ > 0.0 && finger_.time() > last_shown_ + 0.5 * film_interval_)
+    film_.show(pictures_.view(), picture());
   update();
   if (observer_) observer_(outcome_, 1.0);
   return std::move(outcome_);

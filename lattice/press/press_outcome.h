@@ -9,9 +9,8 @@
 
 #include "lattice/dynamics/integrators/stepper.h"
 #include "lattice/dynamics/time_step.h"
-#include "lattice/press/boundary_view.h"
+#include "lattice/press/press_pictures.h"
 #include "lattice/press/press_setup.h"
-#include "lattice/press/press_shapes.h"
 #include "lattice/press/trace.h"
 #include "meshes/press/press_response.h"
 

@@ -2,78 +2,109 @@
 
 #include <utility>
 
+#include "lattice/model/cut_model.h"
+
 namespace fingertip::lattice::inline press {
 
 using meshes::Vector3;
 
 namespace {
 
-/// None if the finger is whole.
-std::optional<WholeTip> whole_tip(const PressSetup& setup, const LatticeModel& part) {
-  if (part.sector.count() == 1) return {};
-  std::vector<Vector3> rest;
-  for (const std::uint32_t p : part.particles) rest.push_back(part.rest_position(p));
-  return WholeTip(setup, part.sector.count(), rest);
+/// Signs of the mirror images that make the whole tip of one of 1, 2 (y >= 0) or 4 parts.
+std::vector<Vector3> mirrors(int sectors) {
+  std::vector<Vector3> signs{{1.0, 1.0, 1.0}};
+  if (sectors > 1) signs.emplace_back(1.0, -1.0, 1.0);
+  if (sectors > 2) {
+    signs.emplace_back(-1.0, 1.0, 1.0);
+    signs.emplace_back(-1.0, -1.0, 1.0);
+  }
+  return signs;
 }
 
 }  // namespace
 
-PressPictures::PressPictures(const PressSetup& setup, const Finger& finger, double expected_time,
-                             PressFilm film, PressOutcome& outcome)
-    : finger_(&finger),
-      whole_(whole_tip(setup, finger.model())),
-      view_(model(), setup.geometry),
-      recorder_(view_, setup.protocol, Moment::before_contact, outcome),
-      film_(std::move(film)),
-      outcome_(&outcome) {
-  if (film_.pictures > 1) interval_ = expected_time / (film_.pictures - 1);
-}
-
-void PressPictures::look(double indentation) {
-  if (recorder_.due(indentation, finger_->touching() > 0)) recorder_.keep(take(indentation));
-  if (interval_ <= 0.0 || finger_->time() < shown_ * interval_) return;
-  film_.show(view_, take(indentation));
-  ++shown_;
-  last_shown_ = finger_->time();
-}
-
-std::vector<Vector3> PressPictures::deformed() {
-  if (!whole_) return view_.deformed(finger_->state());
-  const LatticeModel& part = finger_->model();
-  std::vector<Vector3> moved;
-  for (const std::uint32_t p : part.particles)
-    moved.emplace_back(part.grid.axes * finger_->state().displacement.at(p));
-  return view_.deformed(whole_->state(moved));
-}
-
-std::vector<std::uint8_t> PressPictures::held() const {
-  const std::vector<std::uint8_t> of_boundary = finger_->held();
-  if (!whole_) return view_.held(of_boundary);
-  const LatticeModel& part = finger_->model();
-  std::vector<std::uint8_t> of_point(part.points(), 0), of_part;
-  for (std::size_t b = 0; b < of_boundary.size(); ++b) of_point[part.boundary[b]] = of_boundary[b];
-  for (const std::uint32_t p : part.particles) of_part.push_back(of_point[p]);
-  return view_.held(whole_->boundary(of_part));
-}
-
-FingerPicture PressPictures::take(double indentation) {
-  FingerPicture picture = bare_picture(*finger_, indentation);
-  picture.boundary = deformed();
-  picture.held = held();
-  return picture;
-}
-
-void PressPictures::update() {
-  outcome_->boundary_deformed = deformed();
-  outcome_->boundary_anchored = held();
-}
-
-void PressPictures::finish(double indentation) {
-  recorder_.finish(take(indentation));
-  // The end may come just before or after the time that was expected.
-  if (interval_ > 0.0 && finger_->time() > last_shown_ + 0.5 * interval_) {
-    film_.show(view_, take(indentation));
+std::string_view name(Moment moment) {
+  switch (moment) {
+    case Moment::before_contact: return "before contact";
+    case Moment::first_touch: return "first touch";
+    case Moment::half_depth: return "half depth";
+    case Moment::end: return "end";
   }
+  return "unknown";
+}
+
+ComputedParticles particles_at_rest(const LatticeModel& model) {
+  ComputedParticles result;
+  for (const std::uint32_t p : model.particles) result.places.push_back(model.rest_position(p));
+  return result;
+}
+
+ComputedParticles particles_of(const Finger& finger) {
+  const LatticeModel& model = finger.model();
+  const std::vector<std::uint8_t> of_boundary = finger.held();
+  std::vector<std::uint8_t> of_point(model.points(), 0);
+  for (std::size_t b = 0; b < of_boundary.size(); ++b) of_point[model.boundary[b]] = of_boundary[b];
+  ComputedParticles result;
+  for (const std::uint32_t p : model.particles) {
+    result.places.emplace_back(model.grid.axes * finger.state().displacement.at(p));
+    result.held.push_back(of_point[p]);
+  }
+  return result;
+}
+
+PressPictures::PressPictures(const PressSetup& setup, int sectors, const std::vector<Vector3>& rest,
+                             const LatticeModel* whole, Moment first, PressShapes& shapes)
+    : built_(whole ? std::optional<LatticeModel>()
+                   : build_tip(setup.geometry, setup.rubber, setup.lattice)),
+      model_(whole ? whole : &*built_),
+      state_(*model_),
+      view_(*model_, setup.geometry),
+      next_(first),
+      before_contact_(-0.5 * setup.protocol.clearance),
+      half_depth_(0.5 * setup.protocol.depth),
+      shapes_(&shapes) {
+  for (const Vector3& mirror : mirrors(sectors)) {
+    for (std::size_t p = 0; p < rest.size(); ++p) {
+      const auto [i, j, k] = model_->grid.nearest(mirror.cwiseProduct(rest[p]));
+      images_.push_back({p, model_->grid.index(i, j, k), mirror});
+    }
+  }
+  shapes.boundary_rest = view_.rest();
+  shapes.boundary_springs = view_.springs();
+}
+
+FingerPicture PressPictures::draw(FingerPicture bare, const ComputedParticles& now,
+                                  const Vector3& travel) {
+  const Eigen::Matrix3d to_grid = model_->grid.axes.transpose();
+  std::vector<std::uint8_t> of_point(model_->points(), 0), of_boundary;
+  for (const auto& [particle, point, mirror] : images_) {
+    state_.displacement.set(point, to_grid * (mirror.cwiseProduct(now.places[particle]) + travel));
+    of_point[point] = now.held[particle];
+  }
+  for (const std::uint32_t point : model_->boundary) of_boundary.push_back(of_point[point]);
+  bare.boundary = view_.deformed(state_);
+  bare.held = view_.held(of_boundary);
+  return bare;
+}
+
+bool PressPictures::due(double indentation, bool touching) const {
+  switch (next_) {
+    case Moment::before_contact: return indentation >= before_contact_;
+    case Moment::first_touch: return touching;
+    case Moment::half_depth: return indentation >= half_depth_;
+    case Moment::end: return false;
+  }
+  return false;
+}
+
+void PressPictures::keep(FingerPicture picture) {
+  shapes_->snapshots.push_back({std::move(picture), next_});
+  next_ = Moment(int(next_) + 1);
+}
+
+void PressPictures::finish(FingerPicture picture) {
+  next_ = Moment::end;
+  keep(std::move(picture));
 }
 
 }  // namespace fingertip::lattice::inline press

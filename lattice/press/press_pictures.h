@@ -1,47 +1,87 @@
-/// Takes the pictures of a press while it runs.
+/// What a press leaves to be drawn, in motion or at rest: the skin of the whole tip at a few
+/// moments.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
+#include "lattice/model/state.h"
 #include "lattice/press/boundary_view.h"
-#include "lattice/press/press_outcome.h"
-#include "lattice/press/press_shapes.h"
-#include "lattice/press/whole_tip.h"
+#include "lattice/press/press_setup.h"
 
 namespace fingertip::lattice::inline press {
 
-/// Fills the outcome's PressShapes, and shows the film's pictures: of the whole tip.
+/// When a picture of a press is kept.
+enum class Moment {
+  before_contact,  ///< halfway to the plane
+  first_touch,
+  half_depth,
+  end,  ///< whatever was reached before
+};
+std::string_view name(Moment moment);
+
+struct MomentPicture : FingerPicture {
+  Moment moment = Moment::end;
+};
+
+struct PressShapes {
+  std::vector<meshes::Vector3> boundary_rest;        ///< what a BoundaryView shows, at rest [m]
+  std::vector<std::array<int, 2>> boundary_springs;  ///< pairs of them joined by axis springs
+  /// Each moment once, those that a press passes through; the end last.
+  std::vector<MomentPicture> snapshots;
+};
+
+/// The particles that a press computes, in the caller's order: world axes.
+struct ComputedParticles {
+  std::vector<meshes::Vector3> places;  ///< at rest, or how far they have moved since [m]
+  std::vector<std::uint8_t> held;       ///< where the plane holds them, as Finger::held(); now
+};
+/// Of a finger: its rest, and its present state.
+ComputedParticles particles_at_rest(const LatticeModel& model);
+ComputedParticles particles_of(const Finger& finger);
+
+/// Draws a press, of which it computes a part, as the moving lattice of the whole tip, and keeps
+/// the pictures of its moments.
 class PressPictures {
  public:
-  /// `expected_time` [s]: how long the press will take. Finger and outcome must outlive it.
-  PressPictures(const PressSetup& setup, const Finger& finger, double expected_time, PressFilm film,
-                PressOutcome& outcome);
+  /// `rest`: the particles of one of `sectors` parts (Sector). `whole`: the lattice of the whole
+  /// tip where that is computed, which must outlive this; null: it is built (throws as build_tip
+  /// does). `first`: the moment that comes first. `shapes` must outlive it.
+  PressPictures(const PressSetup& setup, int sectors, const std::vector<meshes::Vector3>& rest,
+                const LatticeModel* whole, Moment first, PressShapes& shapes);
+  PressPictures(const PressPictures&) = delete;
+  PressPictures& operator=(const PressPictures&) = delete;
 
-  /// To be called at the start and after every step.
-  void look(double indentation);
-  /// Brings the outcome's boundary up to date.
-  void update();
-  /// To be called at the end: the last snapshot, the film's last picture.
-  void finish(double indentation);
-  /// The lattice of the whole tip.
-  const LatticeModel& model() const { return whole_ ? whole_->model() : finger_->model(); }
+  const LatticeModel& model() const { return *model_; }  ///< of the whole tip
+  const BoundaryView& view() const { return view_; }
+  /// `bare` with the tip where these particles are, and all of them moved by `travel` beside [m].
+  FingerPicture draw(FingerPicture bare, const ComputedParticles& now,
+                     const meshes::Vector3& travel = meshes::Vector3::Zero());
+
+  /// Whether a state is to be given to keep().
+  bool due(double indentation, bool touching) const;
+  void keep(FingerPicture picture);
+  /// The last state.
+  void finish(FingerPicture picture);
 
  private:
-  FingerPicture take(double indentation);
-  std::vector<meshes::Vector3> deformed();
-  std::vector<std::uint8_t> held() const;
+  /// A particle of the part and one of its mirror images among the whole tip's grid points.
+  struct Image {
+    std::size_t particle, point;
+    meshes::Vector3 mirror;  ///< signs of x, y, z
+  };
 
-  const Finger* finger_;
-  std::optional<WholeTip> whole_;  ///< of which the finger is a part
+  std::optional<LatticeModel> built_;
+  const LatticeModel* model_;
+  std::vector<Image> images_;
+  State state_;
   BoundaryView view_;
-  ShapeRecorder recorder_;
-  PressFilm film_;
-  PressOutcome* outcome_;
-  double interval_ = 0.0;    ///< between pictures of the film [s]
-  int shown_ = 0;            ///< pictures of the film
-  double last_shown_ = 0.0;  ///< [s]
+  Moment next_;
+  double before_contact_, half_depth_;  ///< indentations of these moments [m]
+  PressShapes* shapes_;
 };
 
 }  // namespace fingertip::lattice::inline press

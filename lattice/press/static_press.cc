@@ -11,7 +11,7 @@
 
 #include "lattice/contact/contact_patch.h"
 #include "lattice/model/model.h"
-#include "lattice/press/static_pictures.h"
+#include "lattice/press/press_pictures.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/equilibrium.h"
@@ -60,7 +60,9 @@ class StaticPress {
   /// Carries derivatives along; `system` must outlive the press.
   void differentiate(const SlopeSystem& system);
   /// Takes pictures along.
-  void picture() { pictures_.emplace(setup_, body_, outcome_); }
+  void picture() {
+    pictures_.emplace(setup_, body_.sectors, body_.rest, nullptr, Moment::first_touch, outcome_);
+  }
   StaticOutcome run();
   /// Of the samples, a row each; as many as were finished.
   const PressSlopes& slopes() const { return slopes_; }
@@ -80,6 +82,7 @@ class StaticPress {
   bool anchor(State& next) const;
   Wrench on_rod() const;
   PressSample sample() const;
+  FingerPicture drawn();
   void note_slopes();
   void note_contact();
   void report();
@@ -97,7 +100,7 @@ class StaticPress {
   VectorXd previous_displacement_;  ///< one step ago
   double largest_step_ = 0.0, step_ = 0.0;
   StaticOutcome outcome_;
-  std::optional<StaticPictures> pictures_;
+  std::optional<PressPictures> pictures_;
   PressSlopes slopes_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
@@ -142,17 +145,19 @@ void StaticPress::take_census() {
 
 StaticOutcome StaticPress::run() {
   const std::size_t samples = path_.samples().size();
-  if (pictures_) pictures_->look(now_.contact, now_.displacement, on_rod());
+  // An equilibrium at indentation 0 touches, without force.
+  if (pictures_) pictures_->keep(drawn());
   for (std::size_t i = 0; i < samples; ++i) {
     march_to(path_.samples()[i]);
-    if (pictures_ && i + 1 < samples) pictures_->look(now_.contact, now_.displacement, on_rod());
+    if (pictures_ && i + 1 < samples && pictures_->due(now_.contact.pose().indentation, true))
+      pictures_->keep(drawn());
     outcome_.response.append(sample());
     outcome_.response.back().stage = path_.stage(i);
     if (slope_system_) note_slopes();
     note_contact();
     report();
   }
-  if (pictures_) pictures_->finish(now_.contact, now_.displacement, on_rod());
+  if (pictures_) pictures_->finish(drawn());
   return std::move(outcome_);
 }
 
@@ -256,6 +261,32 @@ PressSample StaticPress::sample() const {
   sample.contact_radius = patch.radius;
   sample.max_pressure = patch.max_pressure;
   return sample;
+}
+
+/// In world axes in which the plane stands still and the rod, at its starting place at first touch,
+/// comes nearer, as in a press in motion. What the contact holds of a surface point's cell it holds
+/// of its particles.
+FingerPicture StaticPress::drawn() {
+  const PressPlane& plane = now_.contact.plane();
+  const Vector3 travel = plane.point(0.0) - plane.point(now_.contact.place());
+  ComputedParticles particles{{}, std::vector<std::uint8_t>(body_.rest.size(), 0)};
+  for (std::size_t p = 0; p < body_.rest.size(); ++p)
+    particles.places.emplace_back(now_.displacement.segment<3>(3 * Eigen::Index(p)));
+  for (std::size_t i = 0; i < body_.outer.size(); ++i) {
+    if (!(now_.contact.pressure(i, now_.displacement) > 0.0)) continue;
+    for (std::size_t c = 0; c < 8; ++c)
+      if (body_.outer[i].weights[c] != 0.0) particles.held[body_.outer[i].corners[c]] = 1;
+  }
+  FingerPicture bare;
+  bare.time = meshes::unknown;
+  bare.indentation = now_.contact.pose().indentation;
+  bare.rod.position = travel;
+  bare.endpoint = setup_.geometry.rod_endpoint() + travel;
+  bare.on_rod = on_rod();
+  bare.plane.point = plane.point(0.0);
+  bare.plane.normal = plane.normal;
+  bare.plane.obstacle = plane.obstacle;
+  return pictures_->draw(std::move(bare), particles, travel);
 }
 
 /// Frictionless, a state owes nothing to those before it: only samples need slopes.

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "lattice/press/press_pictures.h"
 #include "lattice/press/press_setup.h"
-#include "lattice/press/press_shapes.h"
 #include "lattice/press/press_slopes.h"
 #include "lattice/statics/lattice_body.h"
 #include "meshes/press/press_response.h"

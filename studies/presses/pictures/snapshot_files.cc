@@ -20,9 +20,9 @@ Vector3 rounded(const Vector3& point) {
 
 void write_boundary(const lattice::PressShapes& shapes, const fs::path& folder) {
   std::vector<BoundaryRow> rows;
+  const MomentPicture& end = shapes.snapshots.back();
   for (std::size_t i = 0; i < shapes.boundary_rest.size(); ++i)
-    rows.push_back(
-        {shapes.boundary_rest[i], shapes.boundary_deformed[i], shapes.boundary_anchored[i] != 0});
+    rows.push_back({shapes.boundary_rest[i], end.boundary[i], end.held[i] != 0});
   meshes::write_rows(rows, folder / "boundary.csv");
   std::vector<BoundarySpringRow> springs;
   for (const auto& [i, j] : shapes.boundary_springs)

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "lattice/press/press_shapes.h"
+#include "lattice/press/press_pictures.h"
 
 namespace fingertip::studies::inline presses::inline pictures {
 
