@@ -133,26 +133,8 @@ double BondedDisc::area() const {
   return pi * radius_ * radius_;
 }
 
-double BondedDisc::free_slip_stiffness() const {
-  return rubber_.youngs_modulus * area() / thickness_;
-}
-
 double BondedDisc::confined_stiffness() const {
   return rubber_.longitudinal_modulus() * area() / thickness_;
-}
-
-double BondedDisc::shape_factor() const {
-  return radius_ / (2.0 * thickness_);
-}
-
-double BondedDisc::gent_lindley_stiffness() const {
-  const double S = shape_factor();
-  return free_slip_stiffness() * (1.0 + 2.0 * S * S);
-}
-
-double BondedDisc::gent_lindley_bulk_stiffness() const {
-  const double bulk = rubber_.bulk_modulus() * area() / thickness_;
-  return 1.0 / (1.0 / gent_lindley_stiffness() + 1.0 / bulk);
 }
 
 double BondedDisc::stiffness(int order) const {

@@ -1,5 +1,5 @@
-/// Elastic disc bonded to two rigid plates that approach each other: bounds, the engineer's
-/// formula, and a Ritz computation of its stiffness that shares nothing with a finite element code.
+/// Elastic disc bonded to two rigid plates that approach each other: an upper bound and a Ritz
+/// computation of its stiffness, which share nothing with a finite element code.
 #pragma once
 
 #include "meshes/rubber/rubber.h"
@@ -11,7 +11,7 @@ namespace fingertip::fem_reference::analytic {
 /// the free side the stress is infinite like distance^(alpha - 1).
 ///
 /// **Bounds**, rigorous for every -1 < nu < 1/2:
-///   free_slip  E A/H <= k            (the uniform stress is statically admissible)
+///   E A/H <= k                       (the uniform stress is statically admissible)
 ///   k <= confined  (lambda + 2G) A/H (the uniform strain is kinematically admissible)
 ///   k <= stiffness(n) for every n    (minimum of the energy over fewer displacements)
 ///
@@ -37,22 +37,8 @@ class BondedDisc {
   /// `radius` R, `thickness` H [m] > 0. Throws meshes::InvalidInput for these or the rubber.
   BondedDisc(const meshes::Rubber& rubber, double radius, double thickness);
 
-  /// E A/H [N/m], a lower bound
-  double free_slip_stiffness() const;
   /// (lambda + 2G) A/H [N/m], an upper bound
   double confined_stiffness() const;
-
-  /// Bonded over free surface, S = R/(2H)
-  double shape_factor() const;
-  /// E (1 + 2 S²) A/H [N/m], Gent & Lindley, Proc. Inst. Mech. Eng. 173 (1959) 111, for
-  /// incompressible rubber. Against the Ritz value: within 6.2 % for nu >= 0.4999 and S <= 5; for
-  /// nu = 3/7 -0.3/+14/+74 % at S = 1/4, 1/2, 1.
-  double gent_lindley_stiffness() const;
-  /// The same with the bulk compliance in series, 1/E_a = 1/(E (1 + 2 S²)) + 1/K, their correction
-  /// for thin layers. Within 6.2 % for nu >= 0.4999 and S <= 10, +17 % at nu = 0.499, S = 20. Not
-  /// for compressible material: 15 to 33 % low for nu = 3/7 and S <= 2, where it can fall below
-  /// free_slip_stiffness().
-  double gent_lindley_bulk_stiffness() const;
 
   /// Ritz stiffness [N/m] with n = `order`, 1 <= order <= 40 (2 n² unknowns, dense: 0.02 s at
   /// 20, 1.4 s at 40); an upper bound that falls with the order. Throws meshes::InvalidInput for

@@ -1,74 +1,8 @@
 #include "fem_reference/analytic/cantilever.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace fingertip::fem_reference::analytic {
-namespace {
-
-using std::numbers::pi;
-
-}  // namespace
-
-Cantilever::Cantilever(const meshes::Rubber& rubber, const Parameters& parameters)
-    : rubber_(checked(rubber)), parameters_(parameters) {
-  checked_positive("radius", parameters.radius);
-  checked_positive("length", parameters.length);
-  checked_finite("load", parameters.load);
-}
-
-double Cantilever::second_moment() const {
-  return pi / 4.0 * std::pow(parameters_.radius, 4);
-}
-
-double Cantilever::shear_coefficient() const {
-  const double nu = rubber_.poissons_ratio();
-  return 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu);
-}
-
-double Cantilever::tip_deflection() const {
-  const auto& [R, L, P] = parameters_;
-  return P * std::pow(L, 3) / (3.0 * rubber_.youngs_modulus * second_moment()) +
-         P * L / (shear_coefficient() * rubber_.shear_modulus * pi * R * R);
-}
-
-Vector3 Cantilever::displacement(const Vector3& x) const {
-  const auto& [R, L, P] = parameters_;
-  const double nu = rubber_.poissons_ratio(), to_tip = L - x.x(), y = x.y(), z = x.z();
-  const double slope = L * x.x() - x.x() * x.x() / 2.0;
-  const double warping = z * ((3.0 + 2.0 * nu) * R * R - y * y - z * z) / 4.0;
-  const double s = (7.0 + 6.0 * nu) * R * R / 12.0;
-  return P / (rubber_.youngs_modulus * second_moment()) *
-         Vector3(-z * slope + warping - s * z, nu * to_tip * y * z,
-                 x.x() * x.x() * (L / 2.0 - x.x() / 6.0) + nu * to_tip * (z * z - y * y) / 2.0 +
-                     s * x.x());
-}
-
-Matrix3 Cantilever::gradient(const Vector3& x) const {
-  const auto& [R, L, P] = parameters_;
-  const double nu = rubber_.poissons_ratio(), to_tip = L - x.x(), y = x.y(), z = x.z();
-  const double slope = L * x.x() - x.x() * x.x() / 2.0;
-  const double s = (7.0 + 6.0 * nu) * R * R / 12.0;
-  const double warping_z = ((3.0 + 2.0 * nu) * R * R - y * y - 3.0 * z * z) / 4.0;
-  Matrix3 result;
-  result << -z * to_tip, -y * z / 2.0, -slope + warping_z - s,  //
-      -nu * y * z, nu * to_tip * z, nu * to_tip * y,            //
-      slope - nu * (z * z - y * y) / 2.0 + s, -nu * to_tip * y, nu * to_tip * z;
-  return P / (rubber_.youngs_modulus * second_moment()) * result;
-}
-
-Matrix3 Cantilever::stress(const Vector3& x) const {
-  const auto& [R, L, P] = parameters_;
-  const double nu = rubber_.poissons_ratio(), y = x.y(), z = x.z();
-  const double xx = -(L - x.x()) * z;
-  const double xy = -(1.0 + 2.0 * nu) / (4.0 * (1.0 + nu)) * y * z;
-  const double xz =
-      ((3.0 + 2.0 * nu) * (R * R - z * z) - (1.0 - 2.0 * nu) * y * y) / (8.0 * (1.0 + nu));
-  Matrix3 result;
-  result << xx, xy, xz, xy, 0.0, 0.0, xz, 0.0, 0.0;
-  return P / second_moment() * result;
-}
-
 PlaneStrainCantilever::PlaneStrainCantilever(const meshes::Rubber& rubber,
                                              const Parameters& parameters)
     : rubber_(checked(rubber)), parameters_(parameters) {

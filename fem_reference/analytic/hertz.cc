@@ -26,10 +26,6 @@ double Hertz::force(double indentation) const {
   return 4.0 / 3.0 * modulus_ * contact_radius(indentation) * indentation;
 }
 
-double Hertz::stiffness(double indentation) const {
-  return 2.0 * modulus_ * contact_radius(indentation);
-}
-
 double Hertz::contact_radius(double indentation) const {
   return std::sqrt(radius_ * checked_not_negative("indentation", indentation));
 }
@@ -44,24 +40,9 @@ double Hertz::pressure(double r, double indentation) const {
   return max_pressure(indentation) * std::sqrt(1.0 - r * r / (a * a));
 }
 
-double Hertz::surface_displacement(double r, double indentation) const {
-  const double a = contact_radius(indentation);
-  if (checked_not_negative("r", r) <= a) return indentation - r * r / (2.0 * radius_);
-  return ((2.0 * a * a - r * r) * std::asin(a / r) + a * std::sqrt(r * r - a * a)) / (pi * radius_);
-}
-
 double Hertz::indentation_at_force(double force) const {
   const double scale = 4.0 / 3.0 * modulus_ * std::sqrt(radius_);
   return std::pow(checked_not_negative("force", force) / scale, 2.0 / 3.0);
-}
-
-double Hertz::indentation_at_contact_radius(double contact_radius) const {
-  return std::pow(checked_not_negative("contact_radius", contact_radius), 2) / radius_;
-}
-
-double Hertz::indentation_at_max_pressure(double max_pressure) const {
-  checked_not_negative("max_pressure", max_pressure);
-  return indentation_at_contact_radius(max_pressure * pi * radius_ / (2.0 * modulus_));
 }
 
 }  // namespace fingertip::fem_reference::analytic

@@ -6,7 +6,7 @@
 namespace fingertip::fem_reference::analytic {
 
 /// The sphere is replaced by a half-space with a parabolic gap r²/(2R), E* = E/(1 - nu²):
-///   a = sqrt(R delta),  F = 4/3 E* sqrt(R) delta^(3/2),  dF/d delta = 2 E* a,
+///   a = sqrt(R delta),  F = 4/3 E* sqrt(R) delta^(3/2),
 ///   p(r) = p_0 sqrt(1 - r²/a²),  p_0 = 2 E* a/(pi R) = 3 F/(2 pi a²).
 /// Source: K. L. Johnson, Contact Mechanics (1985), sections 3.4 and 4.2.
 ///
@@ -19,33 +19,18 @@ class Hertz {
   /// `radius` R [m] > 0. Throws meshes::InvalidInput for an invalid rubber or radius.
   Hertz(const meshes::Rubber& rubber, double radius);
 
-  /// E* [Pa]
-  double plane_strain_modulus() const { return modulus_; }
-
   // All take an indentation delta >= 0 [m] and throw meshes::InvalidInput for any other.
 
   /// F [N]
   double force(double indentation) const;
-  /// dF/d delta [N/m]
-  double stiffness(double indentation) const;
   /// a [m]
   double contact_radius(double indentation) const;
   /// p_0, in the middle [Pa]
   double max_pressure(double indentation) const;
   /// p at distance r >= 0 [m] from the axis, 0 outside the contact [Pa]
   double pressure(double r, double indentation) const;
-  /// How far the surface at distance r >= 0 [m] has moved into the half-space [m]:
-  /// delta - r²/(2R) for r <= a, else ((2a² - r²) asin(a/r) + a sqrt(r² - a²)) / (pi R)
-  double surface_displacement(double r, double indentation) const;
-
-  // Inverses
-
   /// delta [m] at force F >= 0 [N]
   double indentation_at_force(double force) const;
-  /// delta [m] at contact radius a >= 0 [m]
-  double indentation_at_contact_radius(double contact_radius) const;
-  /// delta [m] at maximum pressure p_0 >= 0 [Pa]
-  double indentation_at_max_pressure(double max_pressure) const;
 
  private:
   double modulus_;  ///< E*

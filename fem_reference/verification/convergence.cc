@@ -7,8 +7,7 @@
 
 #include "fem_reference/analytic/cantilever.h"
 #include "fem_reference/analytic/manufactured_displacement.h"
-#include "fem_reference/analytic/thick_cylinder.h"
-#include "fem_reference/analytic/thick_sphere.h"
+#include "fem_reference/analytic/thick_shell.h"
 #include "fem_reference/verification/exact_cases.h"
 #include "fem_reference/verification/verification.h"
 

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "fem_reference/analytic/cantilever.h"
-#include "fem_reference/analytic/thick_cylinder.h"
-#include "fem_reference/analytic/thick_sphere.h"
+#include "fem_reference/analytic/thick_shell.h"
 #include "fem_reference/verification/elastic_problem.h"
 
 namespace fingertip::fem_reference::inline verification {

@@ -24,6 +24,11 @@ double one_term_bound(const fingertip::meshes::Rubber& material, double radius, 
   return (lambda + 2.0 * G - 16.0 / 9.0 * lambda * lambda / D) * pi * radius * radius / thickness;
 }
 
+/// E A/H, a lower bound: the uniform stress is statically admissible.
+double free_slip(const fingertip::meshes::Rubber& material, double radius, double thickness) {
+  return material.youngs_modulus * pi * radius * radius / thickness;
+}
+
 struct Reference {
   double thickness, nu, stiffness;
 };
@@ -54,14 +59,13 @@ TEST(BondedDisc, RitzFallsBetweenTheBounds) {
         EXPECT_LE(stiffness, above) << order;
         above = stiffness + rounding;
       }
-      EXPECT_GE(above, disc.free_slip_stiffness());
+      EXPECT_GE(above, free_slip(material, 1.0, thickness));
     }
 }
 
 TEST(BondedDisc, WithoutPoissonsEffectTheUniformStrainIsExact) {
   const BondedDisc disc(rubber(2.0, 0.0), 1.5, 0.7);
   const double exact = 2.0 * pi * 1.5 * 1.5 / 0.7;
-  EXPECT_NEAR(disc.free_slip_stiffness(), exact, 1e-13);
   EXPECT_NEAR(disc.confined_stiffness(), exact, 1e-12);
   EXPECT_NEAR(disc.stiffness(6), exact, 1e-12);
   EXPECT_NEAR(disc.extrapolated_stiffness(6), exact, 1e-12);
@@ -76,7 +80,7 @@ TEST(BondedDisc, ThinDiscIsConfinedAndLongRodIsFree) {
   // 1/H.
   const auto excess = [&](double length) {
     const BondedDisc rod(material, 1.0, length);
-    return rod.stiffness(24) / rod.free_slip_stiffness() - 1.0;
+    return rod.stiffness(24) / free_slip(material, 1.0, length) - 1.0;
   };
   EXPECT_NEAR(excess(16.0) / excess(8.0), 0.5, 0.01);
 }
@@ -85,7 +89,6 @@ TEST(BondedDisc, DependsOnShapeAloneBesidesSize) {
   const auto material = rubber(3922.66, 3.0 / 7.0);
   const BondedDisc metres(material, 0.01, 0.005), centimetres(material, 1.0, 0.5);
   EXPECT_NEAR(100.0 * metres.stiffness(8) / centimetres.stiffness(8), 1.0, 1e-12);
-  EXPECT_DOUBLE_EQ(metres.shape_factor(), 1.0);
 }
 
 TEST(BondedDisc, ConvergesAtTheRateOfTheCorner) {
@@ -103,22 +106,6 @@ TEST(BondedDisc, CornerExponentIsWilliams) {
   EXPECT_NEAR(BondedDisc(rubber(1.0, 0.4999999), 1.0, 1.0).corner_exponent(), 0.594612, 1e-6);
   // nu = 0.3 (kappa = 1.8), bonded right angle: 0.7112
   EXPECT_NEAR(BondedDisc(rubber(1.0, 0.3), 1.0, 1.0).corner_exponent(), 0.7112, 1e-4);
-}
-
-TEST(BondedDisc, GentLindleyIsGoodForIncompressibleRubberOnly) {
-  for (const double S : {0.25, 1.0, 5.0}) {
-    const BondedDisc disc(rubber(40.0, 0.49999), 1.0, 1.0 / (2.0 * S));
-    EXPECT_NEAR(disc.gent_lindley_stiffness() / disc.stiffness(20), 1.0, 0.062) << S;
-    EXPECT_NEAR(disc.gent_lindley_bulk_stiffness() / disc.stiffness(20), 1.0, 0.062) << S;
-  }
-  const BondedDisc thin(rubber(40.0, 0.499), 1.0, 1.0 / 40.0);
-  EXPECT_GT(thin.gent_lindley_stiffness(), 6.0 * thin.stiffness(20));
-  EXPECT_NEAR(thin.gent_lindley_bulk_stiffness() / thin.stiffness(20), 1.17, 0.01);
-  const BondedDisc compressible(rubber(40.0, 3.0 / 7.0), 1.0, 1.0);
-  EXPECT_NEAR(compressible.gent_lindley_stiffness() / compressible.stiffness(20), 1.14, 0.01);
-  EXPECT_LT(compressible.gent_lindley_bulk_stiffness(), compressible.free_slip_stiffness());
-  // S = 1/2: E_a = E (1 + 1/2)
-  EXPECT_NEAR(compressible.gent_lindley_stiffness(), 60.0 * pi, 1e-12);
 }
 
 TEST(BondedDisc, RefusesWhatItCannotCompute) {

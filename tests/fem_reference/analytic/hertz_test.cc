@@ -26,7 +26,7 @@ double integral(const std::function<double(double)>& f, int cells) {
 
 /// Boussinesq: a pressure p on a half-space moves the surface at distance r by
 /// 1/(pi E*) ∫∫ p(|x + s e|) ds dphi in polar coordinates (s, phi) about the point x.
-double boussinesq(const Hertz& hertz, double r, double indentation, int cells) {
+double boussinesq(const Hertz& hertz, double modulus, double r, double indentation, int cells) {
   const double a = hertz.contact_radius(indentation);
   const auto along_ray = [&](double phi) {
     // The ray meets the contact where s² + 2 r s cos phi + r² < a².
@@ -48,7 +48,7 @@ double boussinesq(const Hertz& hertz, double r, double indentation, int cells) {
   // Seen from outside, the contact fills a sector about phi = pi.
   const double sector = r <= a ? pi : std::asin(a / r);
   const auto turned = [&](double t) { return along_ray(pi + sector * (2.0 * t - 1.0)); };
-  return 2.0 * sector * integral(turned, cells) / (pi * hertz.plane_strain_modulus());
+  return 2.0 * sector * integral(turned, cells) / (pi * modulus);
 }
 
 TEST(Hertz, PressureCarriesTheForce) {
@@ -61,31 +61,22 @@ TEST(Hertz, PressureCarriesTheForce) {
 }
 
 TEST(Hertz, PressureMovesTheSurfaceOntoThePlane) {
-  const Hertz hertz(rubber(3.0, 0.4), 2.0);
-  const double delta = 0.02, a = hertz.contact_radius(delta);
-  for (const double r : {0.0, 0.5, 0.9, 1.3, 3.0}) {
-    const double expected = boussinesq(hertz, r * a, delta, 400);
-    EXPECT_NEAR(hertz.surface_displacement(r * a, delta) / expected, 1.0, 1e-5) << r;
-  }
-  // Inside, sphere and displacement add up to the plane; outside, a gap stays.
-  for (const double r : {0.0, 0.3 * a, a})
-    EXPECT_NEAR(hertz.surface_displacement(r, delta) + r * r / 4.0, delta, 1e-15);
-  for (const double r : {1.01 * a, 2.0 * a})
-    EXPECT_GT(hertz.surface_displacement(r, delta) + r * r / 4.0, delta);
+  const double modulus = 3.0 / (1.0 - 0.4 * 0.4), radius = 2.0, delta = 0.02;
+  const Hertz hertz(rubber(3.0, 0.4), radius);
+  const double a = hertz.contact_radius(delta);
+  for (const double r : {0.0, 0.5 * a, 0.9 * a})
+    EXPECT_NEAR((delta - r * r / (2.0 * radius)) / boussinesq(hertz, modulus, r, delta, 400), 1.0,
+                1e-5);
+  for (const double r : {1.3 * a, 3.0 * a})  // outside a gap stays
+    EXPECT_GT(boussinesq(hertz, modulus, r, delta, 400), delta - r * r / (2.0 * radius));
 }
 
 TEST(Hertz, SurfaceFarAwaySeesAPointForce) {
+  const double modulus = 3.0 / (1.0 - 0.1 * 0.1);
   const Hertz hertz(rubber(3.0, 0.1), 1.0);
   const double delta = 1e-3, r = 50.0 * hertz.contact_radius(delta);
-  const double point = hertz.force(delta) / (pi * hertz.plane_strain_modulus() * r);
-  EXPECT_NEAR(hertz.surface_displacement(r, delta) / point, 1.0, 1e-3);
-}
-
-TEST(Hertz, StiffnessIsTheSlopeOfTheForce) {
-  const Hertz hertz(rubber(3.0, 0.4), 2.0);
-  const double delta = 0.01, step = 1e-6;
-  const double slope = (hertz.force(delta + step) - hertz.force(delta - step)) / (2.0 * step);
-  EXPECT_NEAR(hertz.stiffness(delta) / slope, 1.0, 1e-8);
+  const double point = hertz.force(delta) / (pi * modulus * r);
+  EXPECT_NEAR(boussinesq(hertz, modulus, r, delta, 400) / point, 1.0, 1e-3);
 }
 
 TEST(Hertz, ScalesWithIndentationRadiusAndModulus) {
@@ -106,7 +97,6 @@ TEST(Hertz, ScalesWithIndentationRadiusAndModulus) {
 TEST(Hertz, KnownNumber) {
   // E* = 49 gf/cm² for E = 40, nu = 3/7: F = 4/3 · 49 · 0.01^1.5 gf at R = 1 cm, delta = 0.01 cm
   const Hertz hertz(rubber(40.0, 3.0 / 7.0), 1.0);
-  EXPECT_NEAR(hertz.plane_strain_modulus(), 49.0, 1e-12);
   EXPECT_NEAR(hertz.force(0.01), 0.196 / 3.0, 1e-14);
 }
 
@@ -114,8 +104,6 @@ TEST(Hertz, InversesUndo) {
   const Hertz hertz(rubber(3.0, -0.2), 0.7);
   for (const double delta : {0.0, 1e-6, 0.02}) {
     EXPECT_NEAR(hertz.indentation_at_force(hertz.force(delta)), delta, 1e-15);
-    EXPECT_NEAR(hertz.indentation_at_contact_radius(hertz.contact_radius(delta)), delta, 1e-15);
-    EXPECT_NEAR(hertz.indentation_at_max_pressure(hertz.max_pressure(delta)), delta, 1e-15);
   }
 }
 
@@ -125,12 +113,9 @@ TEST(Hertz, RefusesWhatMeansNothing) {
   EXPECT_THROW(Hertz(rubber(1.0, 0.5), 1.0), InvalidInput);
   const Hertz hertz(rubber(1.0, 0.3), 1.0);
   EXPECT_THROW(hertz.force(-0.1), InvalidInput);
-  EXPECT_THROW(hertz.stiffness(nan), InvalidInput);
+  EXPECT_THROW(hertz.contact_radius(nan), InvalidInput);
   EXPECT_THROW(hertz.pressure(-1.0, 0.1), InvalidInput);
-  EXPECT_THROW(hertz.surface_displacement(nan, 0.1), InvalidInput);
   EXPECT_THROW(hertz.indentation_at_force(-1.0), InvalidInput);
-  EXPECT_THROW(hertz.indentation_at_contact_radius(-1.0), InvalidInput);
-  EXPECT_THROW(hertz.indentation_at_max_pressure(nan), InvalidInput);
 }
 
 }  // namespace
