@@ -124,7 +124,7 @@ GapField gap_field(const meshes::Geometry& geometry, const meshes::Obstacle& obs
   const double touch = meshes::first_touch(geometry, 0.0, obstacle);
   std::vector<std::pair<double, double>> patch;
   for (const meshes::SurfacePoint& point :
-       meshes::surface_points(geometry, meshes::Surface::outer, spacing)) {
+       meshes::surface_points(geometry, meshes::ProfileSurface::contact, spacing)) {
     const double gap = touch - meshes::height(obstacle, point.position) - point.position.z();
     if (point.normal.z() > 0.0 && gap < depth)
       patch.emplace_back(std::max(gap, 0.0), point.area * point.normal.z());

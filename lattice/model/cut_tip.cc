@@ -13,8 +13,8 @@ namespace fingertip::lattice::inline model {
 using meshes::CubicGrid;
 using meshes::CutCell;
 using meshes::Geometry;
+using meshes::ProfileSurface;
 using meshes::Rubber;
-using meshes::Surface;
 using meshes::SurfacePoint;
 using meshes::Vector3;
 using meshes::Violation;
@@ -51,7 +51,7 @@ void check_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
 
 /// Points of a surface above `lowest` [m], in the sector, embedded with `stiffness` [Pa/m].
 std::vector<EmbeddedPoint> embedded_surface(const GridCells& cells, const Geometry& geometry,
-                                            Surface surface, double lowest, int sectors,
+                                            ProfileSurface surface, double lowest, int sectors,
                                             double stiffness) {
   std::vector<EmbeddedPoint> embedded;
   const double apart = cells.grid().spacing / points_per_spacing;
@@ -85,11 +85,11 @@ CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   // All of the bond holds, wherever it lies; of a profile's contact what round-off may put below.
   constexpr double everywhere = -std::numeric_limits<double>::infinity();
   const double slack = geometry.is_dome() ? 0.0 : 1e-9 * geometry.tip_radius;
-  tip.bond = embedded_surface(tip.cells, geometry, Surface::bond, everywhere, sectors,
+  tip.bond = embedded_surface(tip.cells, geometry, ProfileSurface::bond, everywhere, sectors,
                               stiffness * settings.ligament_stiffness);
-  tip.outer =
-      embedded_surface(tip.cells, geometry, Surface::outer, lowest_contact(geometry) - slack,
-                       sectors, stiffness * settings.contact_stiffness);
+  tip.outer = embedded_surface(tip.cells, geometry, ProfileSurface::contact,
+                               lowest_contact(geometry) - slack, sectors,
+                               stiffness * settings.contact_stiffness);
   if (tip.formulation.material.large_strain()) tip.contact = layer_law(rubber.energy, grid.spacing);
   return tip;
 }

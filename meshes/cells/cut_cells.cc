@@ -1,6 +1,7 @@
 #include "meshes/cells/cut_cells.h"
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -42,24 +43,8 @@ struct Round {
   }
 };
 
-/// Up to N values, without a heap.
-template <class T, std::size_t N>
-class ShortList {
- public:
-  void push_back(const T& value) { values_[size_++] = value; }
-  void clear() { size_ = 0; }
-  const T* begin() const { return values_.data(); }
-  const T* end() const { return values_.data() + size_; }
-  T* begin() { return values_.data(); }
-  T* end() { return values_.data() + size_; }
-
- private:
-  std::array<T, N> values_;
-  std::size_t size_ = 0;
-};
-
 /// Parameters at which a line of a cell meets the boundary: 4 rounds twice, 2 planes, and the ends.
-using Crossings = ShortList<double, 12>;
+using Crossings = boost::container::static_vector<double, 12>;
 
 /// One cell and the pieces of the boundary that may pass through it.
 class Cell {
@@ -87,8 +72,8 @@ class Cell {
   Vector3 corner_;
   std::array<int, 3> order_{0, 1, 2};  ///< grid direction of the outer, middle, inner integral
   Vector3 outer_, middle_, inner_;     ///< edges of the cell [m]
-  ShortList<Round, 4> rounds_;
-  ShortList<double, 2> heights_;         ///< planes z = const that bound a piece
+  boost::container::static_vector<Round, 4> rounds_;
+  boost::container::static_vector<double, 2> heights_;  ///< planes z = const that bound a piece
   std::vector<double> slices_, strips_;  ///< events of the outer and of the middle integral
 };
 
@@ -120,7 +105,7 @@ void Cell::choose_pieces(const CubicGrid& grid, const Vector3& centre) {
 /// closest to the normal, the outer one the farthest from it.
 void Cell::choose_order(const CubicGrid& grid, const Vector3& centre) {
   Vector3 normal = Vector3::UnitZ();
-  if (rounds_.begin() != rounds_.end()) {
+  if (!rounds_.empty()) {
     normal = {centre.x(), centre.y(), std::max(centre.z(), 0.0)};
   }
   const Vector3 along = (grid.axes.transpose() * normal).cwiseAbs();
@@ -228,7 +213,7 @@ std::array<double, 2> Cell::line_moments(const Vector3& at) const {
   Crossings cuts = crossings({at, inner_});
   cuts.push_back(1.0);
   // By insertion: they are few, and GCC 12 warns of std::sort's on so short an array.
-  for (double* next = cuts.begin(); next != cuts.end(); ++next)
+  for (auto next = cuts.begin(); next != cuts.end(); ++next)
     std::rotate(std::upper_bound(cuts.begin(), next, *next), next, next + 1);
   std::array<double, 2> sum{0.0, 0.0};
   double from = 0.0;

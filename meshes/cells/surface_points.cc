@@ -43,15 +43,6 @@ void add_ring(const Ring& ring, double spacing, std::vector<SurfacePoint>& point
   }
 }
 
-ProfileSurface piece_of(Surface surface) {
-  switch (surface) {
-    case Surface::outer: return ProfileSurface::contact;
-    case Surface::bond: return ProfileSurface::bond;
-    case Surface::end: return ProfileSurface::free;
-  }
-  return ProfileSurface::axis;
-}
-
 /// Of a band's points: where a piece has the band's mean height (arcs: area is uniform in z where
 /// the centre lies on the axis, and the normal follows z) or its mean r² (lines), a spline its
 /// middle by area. Between the parameters a and b.
@@ -115,24 +106,24 @@ void check(const Geometry& geometry, double spacing) {
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_points(const Geometry& geometry, Surface surface,
+std::vector<SurfacePoint> surface_points(const Geometry& geometry, ProfileSurface surface,
                                          double spacing) {
   check(geometry, spacing);
-  if (geometry.solid) return geometry.solid->points(piece_of(surface), spacing);
+  if (geometry.solid) return geometry.solid->points(surface, spacing);
   std::vector<SurfacePoint> points;
   const std::vector<MeridianPiece> all = Meridian(geometry.corners()).pieces();
   // Counter-clockwise, `contact` ends at the pole.
-  const bool backward = surface == Surface::outer;
+  const bool backward = surface == ProfileSurface::contact;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const MeridianPiece& piece = all[backward ? all.size() - 1 - i : i];
-    if (piece.surface() == piece_of(surface)) add_piece(piece, backward, spacing, points);
+    if (piece.surface() == surface) add_piece(piece, backward, spacing, points);
   }
   return points;
 }
 
-double surface_area(const Geometry& geometry, Surface surface) {
+double surface_area(const Geometry& geometry, ProfileSurface surface) {
   check(geometry);
-  return shape_of(geometry)->area(piece_of(surface));
+  return shape_of(geometry)->area(surface);
 }
 
 }  // namespace fingertip::meshes::inline cells

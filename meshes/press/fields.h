@@ -1,7 +1,6 @@
 /// The members of settings by name and unit, for whoever writes them, reads them or compares them.
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <type_traits>
 
@@ -115,39 +114,6 @@ void visit_fields(T& obstacle, auto&& visit) {
   visit("radius", radius, "m");
   if (read || !sphere) visit("along", along, "");
   if (read || !obstacle.along_x()) visit("offset", offset, "m");
-}
-
-/// All values of an enumeration; name() tells how each is written.
-constexpr auto values(ContactMode) {
-  return std::array{ContactMode::stick, ContactMode::frictionless, ContactMode::coulomb};
-}
-constexpr auto values(RubberLaw) {
-  return std::array{RubberLaw::linear,        RubberLaw::neo_hookean, RubberLaw::yeoh,
-                    RubberLaw::mooney_rivlin, RubberLaw::ogden,       RubberLaw::gent};
-}
-constexpr auto values(VolumetricLaw) {
-  return std::array{VolumetricLaw::logarithmic, VolumetricLaw::quadratic,
-                    VolumetricLaw::full_quadratic, VolumetricLaw::isochoric_logarithmic};
-}
-constexpr auto values(ProfileSurface) {
-  return std::array{ProfileSurface::contact, ProfileSurface::bond, ProfileSurface::free,
-                    ProfileSurface::axis};
-}
-constexpr auto values(ProfileCurve) {
-  return std::array{ProfileCurve::straight, ProfileCurve::arc, ProfileCurve::spline};
-}
-constexpr auto values(ObstacleShape) {
-  return std::array{ObstacleShape::plane, ObstacleShape::sphere, ObstacleShape::cylinder,
-                    ObstacleShape::edge};
-}
-constexpr auto values(ObstacleAxis) {
-  return std::array{ObstacleAxis::x, ObstacleAxis::y};
-}
-constexpr auto values(DriveMode) {
-  return std::array{DriveMode::pid, DriveMode::quasi_static, DriveMode::equilibrium};
-}
-constexpr auto values(LateralPath) {
-  return std::array{LateralPath::diagonal, LateralPath::after};
 }
 
 }  // namespace fingertip::meshes::inline press

@@ -33,20 +33,6 @@ HighestPlace first_place(const Shape& finger, ProfileSurface surface, double til
 
 }  // namespace
 
-std::string_view name(ObstacleShape shape) {
-  switch (shape) {
-    case ObstacleShape::plane: return "plane";
-    case ObstacleShape::sphere: return "sphere";
-    case ObstacleShape::cylinder: return "cylinder";
-    case ObstacleShape::edge: return "edge";
-  }
-  return "";
-}
-
-std::string_view name(ObstacleAxis axis) {
-  return axis == ObstacleAxis::x ? "x" : "y";
-}
-
 ObstacleForm Obstacle::form() const {
   if (is_plane()) return {};
   const bool sphere = shape == ObstacleShape::sphere;

@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <string_view>
 #include <vector>
 
 #include "meshes/base/errors.h"
+#include "meshes/base/names.h"
 #include "meshes/press/obstacle_surface.h"
 #include "meshes/shape/geometry.h"
 
@@ -18,14 +18,20 @@ enum class ObstacleShape {
   cylinder,  ///< endless
   edge,      ///< an endless wedge of 90 degrees, rounded, its faces at 45 degrees to the normal
 };
-std::string_view name(ObstacleShape shape);
+constexpr auto names_of(ObstacleShape) {
+  using enum ObstacleShape;
+  return names<ObstacleShape>(
+      {{plane, "plane"}, {sphere, "sphere"}, {cylinder, "cylinder"}, {edge, "edge"}});
+}
 
 /// Axis of a cylinder or an edge.
 enum class ObstacleAxis {
   x,  ///< along t1
   y,  ///< along t2
 };
-std::string_view name(ObstacleAxis axis);
+constexpr auto names_of(ObstacleAxis) {
+  return names<ObstacleAxis>({{ObstacleAxis::x, "x"}, {ObstacleAxis::y, "y"}});
+}
 
 /// Its axes are t1, t2 and the normal n of the plane that touches it at its top: where the plane of
 /// a press would be.

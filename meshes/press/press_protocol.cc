@@ -87,28 +87,6 @@ class ProgramRules {
 };
 }  // namespace
 
-std::string_view name(ContactMode mode) {
-  switch (mode) {
-    case ContactMode::stick: return "stick";
-    case ContactMode::frictionless: return "frictionless";
-    case ContactMode::coulomb: return "coulomb";
-  }
-  return "";
-}
-
-std::string_view name(DriveMode mode) {
-  switch (mode) {
-    case DriveMode::pid: return "pid";
-    case DriveMode::quasi_static: return "quasi-static";
-    case DriveMode::equilibrium: return "static";
-  }
-  return "unknown";
-}
-
-std::string_view name(LateralPath path) {
-  return path == LateralPath::after ? "after" : "diagonal";
-}
-
 PressPath::PressPath(const PressProtocol& protocol)
     : length_(protocol.depth),
       samples_(protocol.samples.empty() ? default_samples(protocol.depth) : protocol.samples) {

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,9 +33,19 @@ enum class LateralPath {
   after,     ///< at full depth, once pressed
 };
 
-std::string_view name(ContactMode mode);
-std::string_view name(DriveMode mode);
-std::string_view name(LateralPath path);
+constexpr auto names_of(ContactMode) {
+  using enum ContactMode;
+  return names<ContactMode>(
+      {{stick, "stick"}, {frictionless, "frictionless"}, {coulomb, "coulomb"}});
+}
+constexpr auto names_of(DriveMode) {
+  using enum DriveMode;
+  return names<DriveMode>({{pid, "pid"}, {quasi_static, "quasi-static"}, {equilibrium, "static"}});
+}
+constexpr auto names_of(LateralPath) {
+  using enum LateralPath;
+  return names<LateralPath>({{diagonal, "diagonal"}, {after, "after"}});
+}
 
 /// Where the plane is, seen from the rod [m].
 struct PressPose {

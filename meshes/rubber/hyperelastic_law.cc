@@ -361,25 +361,6 @@ FluctuatingResponse HyperelasticLaw::fluctuating(const Matrix3d& F, double exces
   return respond(energy_, shear_modulus_, F, volumetric_modulus_, this, excess);
 }
 
-Matrix3d HyperelasticLaw::cauchy_stress(const Matrix3d& F) const {
-  const Inverse inverse(F);
-  const bool ogden = energy_.law == RubberLaw::ogden;
-  Terms terms = ogden ? Terms() : terms_of_invariants(energy_, shear_modulus_, F, inverse.J, 0.0);
-  add_volumetric(terms, volumetric(inverse.J), volumetric_modulus_, inverse.J);
-  // Kirchhoff stress with H Fᵀ = 1, so that the result is symmetric to the last bit.
-  const Matrix3d B = F * F.transpose();
-  Matrix3d tau =
-      (terms.along + terms.second * B.trace()) * B - terms.inverse * Matrix3d::Identity();
-  if (terms.second != 0.0) tau -= terms.second * (B * B.transpose());
-  if (ogden) {
-    const Spectral s = spectral_of(energy_, F, inverse.J, 0.0);
-    const Matrix3d U = F * s.axes * s.stretch.cwiseInverse().asDiagonal();
-    const Matrix3d part = U * s.tau.asDiagonal() * U.transpose();
-    tau += 0.5 * shear_modulus_ * (part + part.transpose());
-  }
-  return tau / inverse.J;
-}
-
 double HyperelasticLaw::energy(const Matrix3d& F, double excess) const {
   const double J = F.determinant();
   if (!(J > 0.0)) return std::numeric_limits<double>::infinity();

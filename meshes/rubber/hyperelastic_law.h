@@ -73,9 +73,6 @@ class HyperelasticLaw {
   /// Both parts together, the volumetric one at J = det F.
   PointResponse complete(const Eigen::Matrix3d& F) const;
 
-  /// sigma = P Fᵀ / J [Pa], symmetric, of both parts.
-  Eigen::Matrix3d cauchy_stress(const Eigen::Matrix3d& F) const;
-
   /// Of both parts, `excess` >= 0.
   FluctuatingResponse fluctuating(const Eigen::Matrix3d& F, double excess) const;
 

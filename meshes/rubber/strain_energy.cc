@@ -183,39 +183,8 @@ std::optional<Instability> first_instability(const StrainEnergy& energy, double 
   return nearest;
 }
 
-std::string_view name(RubberLaw law) {
-  switch (law) {
-    case RubberLaw::linear: return "linear";
-    case RubberLaw::neo_hookean: return "neo-hookean";
-    case RubberLaw::yeoh: return "yeoh";
-    case RubberLaw::mooney_rivlin: return "mooney-rivlin";
-    case RubberLaw::ogden: return "ogden";
-    case RubberLaw::gent: return "gent";
-  }
-  return "";
-}
-
 std::string describe(const StrainEnergy& energy) {
   return std::string(name(energy.law)) + ", " + std::string(name(energy.volumetric));
-}
-
-std::string_view name(VolumetricLaw law) {
-  switch (law) {
-    case VolumetricLaw::logarithmic: return "logarithmic";
-    case VolumetricLaw::quadratic: return "quadratic";
-    case VolumetricLaw::full_quadratic: return "full-quadratic";
-    case VolumetricLaw::isochoric_logarithmic: return "isochoric-logarithmic";
-  }
-  return "";
-}
-
-std::string_view name(SheetTest test) {
-  switch (test) {
-    case SheetTest::uniaxial: return "uniaxial";
-    case SheetTest::equibiaxial: return "equibiaxial";
-    case SheetTest::planar: return "planar";
-  }
-  return "";
 }
 
 }  // namespace fingertip::meshes::inline rubber

@@ -5,10 +5,10 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "meshes/base/errors.h"
+#include "meshes/base/names.h"
 
 namespace fingertip::meshes::inline rubber {
 
@@ -26,6 +26,15 @@ namespace fingertip::meshes::inline rubber {
 ///
 /// (Treloar 1944; Yeoh 1993; Mooney 1940, Rivlin 1948; Ogden 1972; Gent 1996.)
 enum class RubberLaw { linear, neo_hookean, yeoh, mooney_rivlin, ogden, gent };
+constexpr auto names_of(RubberLaw) {
+  using enum RubberLaw;
+  return names<RubberLaw>({{linear, "linear"},
+                           {neo_hookean, "neo-hookean"},
+                           {yeoh, "yeoh"},
+                           {mooney_rivlin, "mooney-rivlin"},
+                           {ogden, "ogden"},
+                           {gent, "gent"}});
+}
 
 /// What a change of volume costs, J = det F:
 ///
@@ -40,6 +49,13 @@ enum class RubberLaw { linear, neo_hookean, yeoh, mooney_rivlin, ogden, gent };
 /// modulus at rest: lambda for neo_hookean and ogden, lambda - 8 C2 for yeoh, lambda - 4 C01 for
 /// mooney_rivlin, lambda - 2 G/Jm for gent.
 enum class VolumetricLaw { logarithmic, quadratic, full_quadratic, isochoric_logarithmic };
+constexpr auto names_of(VolumetricLaw) {
+  using enum VolumetricLaw;
+  return names<VolumetricLaw>({{logarithmic, "logarithmic"},
+                               {quadratic, "quadratic"},
+                               {full_quadratic, "full-quadratic"},
+                               {isochoric_logarithmic, "isochoric-logarithmic"}});
+}
 
 struct StrainEnergy {
   RubberLaw law = RubberLaw::neo_hookean;
@@ -88,6 +104,11 @@ PrincipalResponse principal_response(const StrainEnergy& energy,
 
 /// Tests on sheets: one, two, or one of two directions pulled.
 enum class SheetTest { uniaxial, equibiaxial, planar };
+constexpr auto names_of(SheetTest) {
+  using enum SheetTest;
+  return names<SheetTest>(
+      {{uniaxial, "uniaxial"}, {equibiaxial, "equibiaxial"}, {planar, "planar"}});
+}
 
 /// Where an incompressible law stops being stable (Drucker): dsigma:d(ln l) > 0 for every change
 /// fails.
@@ -99,9 +120,6 @@ struct Instability {
 std::optional<Instability> first_instability(const StrainEnergy& energy, double shortest,
                                              double longest);
 
-std::string_view name(RubberLaw law);
-std::string_view name(VolumetricLaw law);
-std::string_view name(SheetTest test);
 /// "yeoh, quadratic".
 std::string describe(const StrainEnergy& energy);
 

@@ -13,15 +13,6 @@
 
 namespace fingertip::meshes::inline shape {
 
-std::string_view name(Surface surface) {
-  switch (surface) {
-    case Surface::outer: return "outer";
-    case Surface::bond: return "bond";
-    case Surface::end: return "end";
-  }
-  return "";
-}
-
 namespace {
 
 /// The dome of the paper as a profile.

@@ -21,15 +21,6 @@ namespace fingertip::meshes::inline shape {
 
 class Solid;
 
-/// The three parts of the tip's boundary.
-enum class Surface {
-  outer,  ///< |w| = R (z >= 0) and rho = R (z < 0): free or in contact
-  bond,   ///< |w| = r (z >= 0) and rho = r (z < 0): bonded to the rigid rod
-  end,    ///< the annulus at z = -L: free
-};
-
-std::string_view name(Surface surface);
-
 /// Lengths in metres. Those of another shape than the dome follow from it: `of_profile`,
 /// `of_solid`.
 struct Geometry {

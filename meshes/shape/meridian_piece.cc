@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string_view>
 
 namespace fingertip::meshes::inline shape {
 namespace {
@@ -16,15 +15,6 @@ using std::numbers::pi;
 using PieceGauss = boost::math::quadrature::gauss<double, 15>;
 
 }  // namespace
-
-std::string_view name(ProfileCurve curve) {
-  switch (curve) {
-    case ProfileCurve::straight: return "straight";
-    case ProfileCurve::arc: return "arc";
-    case ProfileCurve::spline: return "spline";
-  }
-  return "";
-}
 
 MeridianPiece MeridianPiece::line(const Vector2& from, const Vector2& to, ProfileSurface surface) {
   MeridianPiece piece;

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <string_view>
 #include <vector>
 
 #include "meshes/shape/shape.h"
@@ -23,7 +22,10 @@ enum class ProfileCurve {
   arc,     ///< of a circle, less than half of it
   spline,  ///< consecutive pieces of one surface are one C2 cubic through their corners
 };
-std::string_view name(ProfileCurve curve);
+constexpr auto names_of(ProfileCurve) {
+  using enum ProfileCurve;
+  return names<ProfileCurve>({{straight, "straight"}, {arc, "arc"}, {spline, "spline"}});
+}
 
 /// A piece of the curve, x(t) = (r, z) for t in [0, 1]; rubber lies to its left.
 class MeridianPiece {

@@ -5,27 +5,26 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
-#include <string_view>
+
+#include "meshes/base/names.h"
 
 namespace fingertip::meshes::inline shape {
 
 using Vector3 = Eigen::Vector3d;
 
-/// What a piece of a profile or a facet of a solid is; a solid knows contact and bond.
+/// What a piece of a profile or a facet of a solid is; a solid knows contact and bond. Of the dome
+/// |w| = R (z >= 0) and rho = R (z < 0) may touch, |w| = r and rho = r are bonded to the rigid rod,
+/// the annulus at z = -L is free.
 enum class ProfileSurface {
   contact,  ///< may touch
   bond,     ///< held rigidly by the hand
   free,
   axis,  ///< r = 0, no surface
 };
-inline std::string_view name(ProfileSurface surface) {
-  switch (surface) {
-    case ProfileSurface::contact: return "contact";
-    case ProfileSurface::bond: return "bond";
-    case ProfileSurface::free: return "free";
-    case ProfileSurface::axis: return "axis";
-  }
-  return "";
+constexpr auto names_of(ProfileSurface) {
+  using enum ProfileSurface;
+  return names<ProfileSurface>(
+      {{contact, "contact"}, {bond, "bond"}, {free, "free"}, {axis, "axis"}});
 }
 
 /// A point that stands for a patch of a surface.

@@ -77,8 +77,8 @@ double wall_of_most(const meshes::Geometry& geometry, double share) {
   const double near = 1e-4 * geometry.tip_radius;
   std::vector<Behind> all;
   double left = 0.0;
-  for (const meshes::SurfacePoint& point :
-       meshes::surface_points(geometry, meshes::Surface::outer, geometry.tip_radius / 12.0)) {
+  for (const meshes::SurfacePoint& point : meshes::surface_points(
+           geometry, meshes::ProfileSurface::contact, geometry.tip_radius / 12.0)) {
     // As far as no surface is near, until the other side is met.
     double depth = near, step = near;
     while (step > 0.5 * near) {

@@ -20,8 +20,8 @@ using lattice::Kinematics;
 using lattice::LatticeSettings;
 using lattice::ModelKind;
 using meshes::Geometry;
+using meshes::ProfileSurface;
 using meshes::Rubber;
-using meshes::Surface;
 
 namespace {
 
@@ -102,7 +102,8 @@ VectorXd traction_forces(const LatticeBody& body, const Geometry& geometry,
     cell_at[{int(at.x()), int(at.y()), int(at.z())}] = &cell;
   }
   VectorXd forces = VectorXd::Zero(body.unknowns());
-  for (const Surface surface : {Surface::outer, Surface::bond, Surface::end}) {
+  for (const ProfileSurface surface :
+       {ProfileSurface::contact, ProfileSurface::bond, ProfileSurface::free}) {
     for (const auto& point : meshes::surface_points(geometry, surface, apart)) {
       // A hair inside the rubber, for the end may lie in a plane of the grid.
       const Vector3 at = local(point.position - 1e-6 * settings.spacing * point.normal);
@@ -209,7 +210,8 @@ TEST(CutLattice, VolumeMassAndAreasAreTheTips) {
       const double mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
       EXPECT_NEAR(mass / (rubber.density * geometry.tip_volume()), 1.0, 1e-6);
       EXPECT_GT(*std::min_element(body.mass.begin(), body.mass.end()), 0.0);
-      EXPECT_NEAR(area_of(body.bond) / meshes::surface_area(geometry, Surface::bond), 1.0, 1e-12);
+      EXPECT_NEAR(area_of(body.bond) / meshes::surface_area(geometry, ProfileSurface::bond), 1.0,
+                  1e-12);
       // The hemisphere, and of the sleeve what a ring more or less leaves of a depth R - r.
       const double perimeter = 2.0 * 3.14159265358979 * geometry.tip_radius;
       const double reached = std::min(geometry.thickness(), geometry.sleeve_length);

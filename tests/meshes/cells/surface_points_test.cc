@@ -15,7 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr Surface surfaces[] = {Surface::outer, Surface::bond, Surface::end};
+constexpr ProfileSurface surfaces[] = {ProfileSurface::contact, ProfileSurface::bond,
+                                       ProfileSurface::free};
 
 std::vector<Geometry> family() {
   return {{},
@@ -39,7 +40,7 @@ TEST(SurfacePoints, AreasAddUpToTheExactAreaAtEverySpacing) {
     const double exact[] = {2 * pi * big * big + 2 * pi * big * length,
                             2 * pi * small * small + 2 * pi * small * length,
                             pi * big * big - pi * small * small};
-    for (const Surface surface : surfaces) {
+    for (const ProfileSurface surface : surfaces) {
       const double area = exact[static_cast<int>(surface)];
       EXPECT_NEAR(surface_area(geometry, surface) / area, 1.0, 1e-13) << name(surface);
       for (const double parts : {1.0, 3.3, 12.0, 36.0}) {
@@ -53,7 +54,7 @@ TEST(SurfacePoints, AreasAddUpToTheExactAreaAtEverySpacing) {
 
 TEST(SurfacePoints, LieOnTheSurfaceWithUnitNormalsOutOfTheRubber) {
   for (const Geometry& geometry : family()) {
-    for (const Surface surface : surfaces) {
+    for (const ProfileSurface surface : surfaces) {
       for (const SurfacePoint& point : surface_points(geometry, surface, geometry.tip_radius / 9)) {
         const double step = 0.01 * geometry.thickness();
         ASSERT_NEAR(geometry.signed_distance(point.position), 0.0, 1e-15);
@@ -68,9 +69,10 @@ TEST(SurfacePoints, LieOnTheSurfaceWithUnitNormalsOutOfTheRubber) {
 TEST(SurfacePoints, IntegrateHeightAndNormalExactly) {
   for (const Geometry& geometry : family()) {
     const double length = geometry.sleeve_length;
-    for (const Surface surface : {Surface::outer, Surface::bond}) {
-      const double radius = surface == Surface::outer ? geometry.tip_radius : geometry.rod_radius;
-      const double sign = surface == Surface::outer ? 1.0 : -1.0;
+    for (const ProfileSurface surface : {ProfileSurface::contact, ProfileSurface::bond}) {
+      const double radius =
+          surface == ProfileSurface::contact ? geometry.tip_radius : geometry.rod_radius;
+      const double sign = surface == ProfileSurface::contact ? 1.0 : -1.0;
       const auto points = surface_points(geometry, surface, 0.17 * geometry.tip_radius);
       const double height = integral(points, [](const auto& p) { return p.position.z(); });
       EXPECT_NEAR(height, pi * radius * (radius * radius - length * length), 1e-12 * pi * 1e-4);
@@ -81,7 +83,7 @@ TEST(SurfacePoints, IntegrateHeightAndNormalExactly) {
       }
     }
     // Polar moment of the annulus.
-    const auto points = surface_points(geometry, Surface::end, 0.17 * geometry.tip_radius);
+    const auto points = surface_points(geometry, ProfileSurface::free, 0.17 * geometry.tip_radius);
     const double polar =
         integral(points, [](const auto& p) { return p.position.template head<2>().squaredNorm(); });
     const double exact =
@@ -94,7 +96,7 @@ TEST(SurfacePoints, DivergenceTheoremOverAllSurfacesGivesTheVolume) {
   const Geometry geometry;
   const auto volume = [&](double spacing) {
     double sum = 0.0;
-    for (const Surface surface : surfaces) {
+    for (const ProfileSurface surface : surfaces) {
       sum += integral(surface_points(geometry, surface, spacing),
                       [](const auto& p) { return p.position.dot(p.normal) / 3.0; });
     }
@@ -107,7 +109,7 @@ TEST(SurfacePoints, DivergenceTheoremOverAllSurfacesGivesTheVolume) {
 std::array<double, 2> hemisphere_errors(int parts) {
   const Geometry geometry{.sleeve_length = 0.0};
   const double radius = geometry.tip_radius;
-  const auto points = surface_points(geometry, Surface::outer, pi / 2 * radius / parts);
+  const auto points = surface_points(geometry, ProfileSurface::contact, pi / 2 * radius / parts);
   const double squares =
       integral(points, [](const auto& p) { return std::pow(p.position.z(), 2); });
   // In the squared distance d² = 2 R (R - z), 0 ... 2 R², area is uniform: dA = pi d(d²).
@@ -125,7 +127,7 @@ TEST(SurfacePoints, OtherIntegralsConvergeAtSecondOrder) {
   }
   const Geometry geometry;
   const auto end_error = [&](double spacing) {
-    const auto points = surface_points(geometry, Surface::end, spacing);
+    const auto points = surface_points(geometry, ProfileSurface::free, spacing);
     const double sum = integral(points, [](const auto& p) { return p.position.norm(); });
     const double length = geometry.sleeve_length;
     const auto primitive = [&](double s) {
@@ -143,7 +145,7 @@ TEST(SurfacePoints, AreTheirOwnMirrorImagesAndAvoidTheMirrorPlanes) {
                             [](const Vector3& w) { return Vector3(w.x(), -w.y(), w.z()); },
                             [](const Vector3& w) { return Vector3(w.y(), w.x(), w.z()); }};
   const Geometry geometry;
-  for (const Surface surface : surfaces) {
+  for (const ProfileSurface surface : surfaces) {
     const auto points = surface_points(geometry, surface, geometry.tip_radius / 7.3);
     for (const SurfacePoint& point : points) {
       for (const Mirror mirror : mirrors) {
@@ -161,16 +163,17 @@ TEST(SurfacePoints, AreTheirOwnMirrorImagesAndAvoidTheMirrorPlanes) {
 }
 
 /// A random point of the surface, uniform on each of its parts.
-Vector3 random_point(std::mt19937& random, const Geometry& geometry, Surface surface) {
+Vector3 random_point(std::mt19937& random, const Geometry& geometry, ProfileSurface surface) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const double angle = 2 * pi * unit(random), t = unit(random);
   const Vector3 direction(std::cos(angle), std::sin(angle), 0.0);
   const Vector3 up = Vector3::UnitZ();
-  if (surface == Surface::end) {
+  if (surface == ProfileSurface::free) {
     return (geometry.rod_radius + t * geometry.thickness()) * direction -
            geometry.sleeve_length * up;
   }
-  const double radius = surface == Surface::outer ? geometry.tip_radius : geometry.rod_radius;
+  const double radius =
+      surface == ProfileSurface::contact ? geometry.tip_radius : geometry.rod_radius;
   if (unit(random) < 0.5) return radius * direction - t * geometry.sleeve_length * up;
   return radius * (std::sqrt(1.0 - t * t) * direction + t * up);
 }
@@ -178,7 +181,7 @@ Vector3 random_point(std::mt19937& random, const Geometry& geometry, Surface sur
 TEST(SurfacePoints, AreNowhereSparserThanTheSpacing) {
   std::mt19937 random(4);
   for (const Geometry& geometry : family()) {
-    for (const Surface surface : surfaces) {
+    for (const ProfileSurface surface : surfaces) {
       const double spacing = geometry.tip_radius / 10.7;
       const auto points = surface_points(geometry, surface, spacing);
       for (int i = 0; i < 2000; ++i) {
@@ -194,7 +197,7 @@ TEST(SurfacePoints, AreNowhereSparserThanTheSpacing) {
 TEST(SurfacePoints, DoNotClusterAtThePole) {
   const Geometry geometry;
   const double spacing = geometry.tip_radius / 36.0;
-  const auto points = surface_points(geometry, Surface::outer, spacing);
+  const auto points = surface_points(geometry, ProfileSurface::contact, spacing);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_EQ(points[i].position.z(), points[0].position.z());
     EXPECT_LT(points[i].position.head<2>().norm(), 0.75 * spacing);
@@ -216,11 +219,12 @@ TEST(SurfacePoints, DoNotClusterAtThePole) {
 TEST(SurfacePoints, RefuseImpossibleRequests) {
   const Geometry geometry;
   for (const double spacing : {0.0, -1e-3, 9.9e-6, 0.0101, std::nan("")}) {
-    EXPECT_THROW(surface_points(geometry, Surface::outer, spacing), InvalidInput) << spacing;
+    EXPECT_THROW(surface_points(geometry, ProfileSurface::contact, spacing), InvalidInput)
+        << spacing;
   }
   const Geometry inverted{.rod_radius = 0.011};
-  EXPECT_THROW(surface_points(inverted, Surface::end, 1e-3), InvalidInput);
-  EXPECT_THROW(surface_area(inverted, Surface::end), InvalidInput);
+  EXPECT_THROW(surface_points(inverted, ProfileSurface::free, 1e-3), InvalidInput);
+  EXPECT_THROW(surface_area(inverted, ProfileSurface::free), InvalidInput);
 }
 
 }  // namespace

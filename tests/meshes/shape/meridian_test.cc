@@ -77,7 +77,8 @@ TEST(Meridian, MayBeginAtAnyCornerEitherWayRound) {
     }
     const Geometry geometry = Geometry::of_profile(backward);
     EXPECT_NEAR(geometry.tip_volume() / volume, 1.0, 1e-14);
-    EXPECT_NEAR(Meridian(geometry.corners()).area(bond), surface_area(dome, Surface::bond), 1e-14);
+    EXPECT_NEAR(Meridian(geometry.corners()).area(bond), surface_area(dome, ProfileSurface::bond),
+                1e-14);
   }
 }
 
@@ -295,7 +296,8 @@ TEST(Meridian, SurfacePointsCarryAreaAndCloseTheBody) {
        {fingers::hollow(), half_ellipsoid(0.012, 0.006, 12), fingers::dome(Geometry{})}) {
     const Geometry geometry = Geometry::of_profile(corners);
     double flux = 0.0, push = 0.0, whole = 0.0;
-    for (const Surface surface : {Surface::outer, Surface::bond, Surface::end}) {
+    for (const ProfileSurface surface :
+         {ProfileSurface::contact, ProfileSurface::bond, ProfileSurface::free}) {
       double area = 0.0;
       for (const SurfacePoint& point : surface_points(geometry, surface, 2e-4)) {
         area += point.area;

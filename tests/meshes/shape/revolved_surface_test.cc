@@ -35,7 +35,8 @@ TEST(RevolvedSurface, OfTheDomeHasTwentyThousandTrianglesAndTheVolumeOfItsPolygo
   const Solid solid(mesh, fingers::dome_bond());
   EXPECT_NEAR(solid.volume() / dome.tip_volume(), 1.0 + far.volume, 1e-9);
   EXPECT_EQ(solid.pole(), dome.tip_radius);
-  EXPECT_NEAR(solid.area(ProfileSurface::bond) / surface_area(dome, Surface::bond), 1.0, 1e-3);
+  EXPECT_NEAR(solid.area(ProfileSurface::bond) / surface_area(dome, ProfileSurface::bond), 1.0,
+              1e-3);
 }
 
 /// Depth counts from the pole: rings around it lie on the sphere, and chords between them are low.

@@ -106,10 +106,11 @@ TEST(Solid, OfTheDomeIsTheDome) {
   EXPECT_NEAR(geometry.tip_volume() / dome.tip_volume(), 1.0, 2e-3);
   EXPECT_NEAR(geometry.rod_radius, dome.rod_radius, 1e-5);
   EXPECT_EQ(geometry.rod_endpoint(), dome.rod_endpoint());
-  EXPECT_NEAR(
-      solid.area(contact) / (surface_area(dome, Surface::outer) + surface_area(dome, Surface::end)),
-      1.0, 2e-3);
-  EXPECT_NEAR(solid.area(ProfileSurface::bond) / surface_area(dome, Surface::bond), 1.0, 2e-3);
+  EXPECT_NEAR(solid.area(contact) / (surface_area(dome, ProfileSurface::contact) +
+                                     surface_area(dome, ProfileSurface::free)),
+              1.0, 2e-3);
+  EXPECT_NEAR(solid.area(ProfileSurface::bond) / surface_area(dome, ProfileSurface::bond), 1.0,
+              2e-3);
   EXPECT_NEAR(solid.wall() / 0.005, 1.0, 5e-3);
   EXPECT_NEAR(solid.pole_radius() / dome.tip_radius, 1.0, 0.02);
   for (const double tilt : {0.0, 0.3, -0.7}) EXPECT_NEAR(solid.reach(tilt), dome.tip_radius, 1e-5);
@@ -206,7 +207,7 @@ TEST(SolidCells, SampleTheParticlesOfTheDome) {
 TEST(SolidPoints, AddUpToAreaMomentAndNormal) {
   const Geometry block = Geometry::of_solid(std::make_shared<Solid>(fingers::box(low, high), base));
   for (const Geometry& body : {block, fingers::solid_dome()})
-    for (const auto surface : {Surface::outer, Surface::bond}) {
+    for (const auto surface : {ProfileSurface::contact, ProfileSurface::bond}) {
       const bool flat = body.solid == block.solid;
       const double spacing = body.tip_radius / 20;
       double area = 0.0;
@@ -224,7 +225,7 @@ TEST(SolidPoints, AddUpToAreaMomentAndNormal) {
       EXPECT_LT(double(points.size()), 8.0 * area / (spacing * spacing) + 20.0);
       const Solid& solid = *body.solid;
       for (std::size_t t = 0; t < solid.mesh().triangles.size(); ++t)
-        if (solid.is_bond(t) == (surface == Surface::bond)) {
+        if (solid.is_bond(t) == (surface == ProfileSurface::bond)) {
           own += solid.mesh().area_vector(t);
           own_moment += solid.mesh().area_vector(t).norm() * solid.mesh().centroid(t);
         }
@@ -232,7 +233,7 @@ TEST(SolidPoints, AddUpToAreaMomentAndNormal) {
       EXPECT_LT((moment - own_moment).norm(), 1e-12 * area * body.tip_radius);
       EXPECT_LT((vector - own).norm(), (flat ? 1e-12 : 1e-3) * area);
     }
-  EXPECT_TRUE(surface_points(block, Surface::end, 1e-3).empty());
+  EXPECT_TRUE(surface_points(block, ProfileSurface::free, 1e-3).empty());
 }
 
 TEST(Solid, FindsItsThinnestWall) {
