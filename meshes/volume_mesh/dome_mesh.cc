@@ -1,4 +1,4 @@
-#include "meshes/volume_mesh/dome_mesh.h"
+#include "meshes/volume_mesh/mesh_builders.h"
 
 #include <gmsh.h>
 
@@ -10,8 +10,6 @@
 #include <numbers>
 #include <utility>
 #include <vector>
-
-#include "meshes/volume_mesh/meridian_mesh.h"
 
 namespace fingertip::meshes::inline volume_mesh {
 namespace {

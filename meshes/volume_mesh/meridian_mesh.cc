@@ -1,4 +1,4 @@
-#include "meshes/volume_mesh/meridian_mesh.h"
+#include "meshes/volume_mesh/mesh_builders.h"
 
 #include <gmsh.h>
 

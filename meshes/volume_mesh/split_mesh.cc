@@ -1,4 +1,4 @@
-#include "meshes/volume_mesh/split_mesh.h"
+#include "meshes/volume_mesh/mesh_builders.h"
 
 #include <gmsh.h>
 
@@ -13,7 +13,6 @@
 
 #include "meshes/shape/geometry.h"
 #include "meshes/volume_mesh/boundary_parts.h"
-#include "meshes/volume_mesh/meridian_mesh.h"
 
 namespace fingertip::meshes::inline volume_mesh {
 namespace {

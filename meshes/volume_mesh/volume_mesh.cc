@@ -11,9 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "meshes/volume_mesh/dome_mesh.h"
-#include "meshes/volume_mesh/meridian_mesh.h"
-#include "meshes/volume_mesh/split_mesh.h"
+#include "meshes/volume_mesh/mesh_builders.h"
 
 namespace fingertip::meshes::inline volume_mesh {
 namespace {

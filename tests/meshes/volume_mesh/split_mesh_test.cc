@@ -1,5 +1,5 @@
 // Hexahedra of a finger of any shape.
-#include "meshes/volume_mesh/split_mesh.h"
+#include "meshes/volume_mesh/mesh_builders.h"
 #include "meshes/volume_mesh/volume_mesh.h"
 
 #include <gtest/gtest.h>
