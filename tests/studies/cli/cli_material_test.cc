@@ -3,23 +3,11 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/studies/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/workplace.h"
 
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// A neo-Hookean rubber of G = 14 kPa, a quarter of which fades in 20 ms: held at once at 1.3, and
 /// sheared to and fro at 5 Hz by small amounts after a second's rest.
@@ -43,39 +31,36 @@ class MaterialInTime : public testing::Test {
       before = g;
       cycles << 2e-3 * i << ',' << g << ',' << 14.0 * (g + b * held) << '\n';
     }
-    write_text(folder_ / "hold.csv", hold.str());
-    write_text(folder_ / "cycles.csv", cycles.str());
+    folder_.put("hold.csv", hold.str());
+    folder_.put("cycles.csv", cycles.str());
     describe("cycles.csv");
   }
   void describe(const std::string& cycles) const {
-    write_text(
-        folder_ / "tests.toml",
-        "[[test]]\nkind = \"relaxation\"\npath = \"hold.csv\"\n"
-        "time = {column = 1, unit = \"ms\"}\nstrain = {value = 1.3, is = \"stretch\"}\n"
-        "stress = {column = 2, is = \"nominal\", unit = \"kPa\"}\n"
-        "[[test]]\nkind = \"cycles\"\ndeformation = \"simple-shear\"\nname = \"to and fro\"\n"
-        "path = \"" +
-            cycles +
-            "\"\ntime = {column = \"t\"}\nstrain = {column = \"g\", is = \"shear\"}\n"
-            "stress = {column = \"s\", is = \"nominal\", unit = \"kPa\"}\n");
+    folder_.put("tests.toml",
+                "[[test]]\nkind = \"relaxation\"\npath = \"hold.csv\"\n"
+                "time = {column = 1, unit = \"ms\"}\nstrain = {value = 1.3, is = \"stretch\"}\n"
+                "stress = {column = 2, is = \"nominal\", unit = \"kPa\"}\n"
+                "[[test]]\nkind = \"cycles\"\ndeformation = \"simple-shear\"\n"
+                "name = \"to and fro\"\npath = \"" +
+                    cycles +
+                    "\"\ntime = {column = \"t\"}\nstrain = {column = \"g\", is = \"shear\"}\n"
+                    "stress = {column = \"s\", is = \"nominal\", unit = \"kPa\"}\n");
   }
-  ProgramResult fit() const {
-    return run_program(folder_.path(), {"calibrate", "--set", "calibration.problem=material",
-                                        "--set", "calibration.tests=tests.toml", "--set",
-                                        "calibration.laws=[\"neo-hookean\"]", "--out", "laws"});
+  ProgramResult fit(int code) const {
+    return folder_.run("calibrate --out laws",
+                       {"calibration.problem=material", "calibration.tests=tests.toml",
+                        "calibration.laws=[\"neo-hookean\"]"},
+                       code);
   }
-  TemporaryFolder folder_;
+  const Workplace folder_;
 };
 
 TEST_F(MaterialInTime, FromFilesToACardThatPressesAsItsKeysDo) {
-  const ProgramResult fitted = fit();
-  ASSERT_EQ(fitted.code, 0) << fitted.err;
-  EXPECT_NE(fitted.out.find("loops of to and fro: "), std::string::npos) << fitted.out;
-  EXPECT_NE(fitted.out.find("rubber.card=PATH --set lattice.model=network"), std::string::npos)
+  EXPECT_TRUE(
+      says(fit(0).out, {"loops of to and fro: ", "rubber.card=PATH --set lattice.model=network"}))
       << "the lattice that takes a law";
-  const std::string card = contents(folder_ / "laws/material.toml");
-  EXPECT_NE(card.find("name = \"neo-hookean+prony-1\""), std::string::npos) << card;
-  EXPECT_NE(card.find("relaxation_tau1_interval"), std::string::npos);
+  const std::string card = folder_.text("laws/material.toml");
+  EXPECT_TRUE(says(card, {"name = \"neo-hookean+prony-1\"", "relaxation_tau1_interval"}));
   const auto number_after = [&](const std::string& key) {
     const std::string mark = "\n" + key + " = ";
     std::string text = card.substr(card.find(mark) + mark.size());
@@ -87,89 +72,57 @@ TEST_F(MaterialInTime, FromFilesToACardThatPressesAsItsKeysDo) {
                     tau = number_after("relaxation_tau1");
   EXPECT_NEAR(std::stod(share), 0.25, 1e-3);
   EXPECT_NEAR(std::stod(tau), 0.02, 1e-4);
-  const auto press = [&](const std::string& out, std::vector<std::string> keys) {
-    std::vector<std::string> all = {"press",
-                                    "--set",
-                                    "press.mode=quasi-static",
-                                    "--set",
-                                    "press.speed=5 cm/s",
-                                    "--set",
-                                    "press.depth=0.05 cm",
-                                    "--set",
-                                    "lattice.model=network",
-                                    "--set",
-                                    "lattice.spacing=tip_radius/5",
-                                    "--set",
-                                    "rubber.poissons_ratio=0.45",
-                                    "--out",
-                                    out};
-    for (const std::string& key : keys) all.insert(all.end(), {"--set", key});
-    return run_program(folder_.path(), all);
+  const Words network = {"lattice.model=network", "rubber.poissons_ratio=0.45"};
+  const std::string by_card = "rubber.card=laws/material.toml";
+  const auto press = [&](const std::string& out, const Words& keys) {
+    folder_.run("press --out " + out,
+                network + keys +
+                    Words{"press.mode=quasi-static", "press.speed=5 cm/s", "press.depth=0.05 cm",
+                          "lattice.spacing=tip_radius/5"});
+    return folder_.text(out + "/response.csv");
   };
-  const ProgramResult by_card = press("card", {"rubber.card=laws/material.toml"});
-  ASSERT_EQ(by_card.code, 0) << by_card.err;
-  const ProgramResult by_hand =
-      press("hand", {"rubber.shear_modulus=" + g, "rubber.law=neo-hookean",
-                     "rubber.relaxation=[[" + share + ", \"" + tau + "\"]]"});
-  ASSERT_EQ(by_hand.code, 0) << by_hand.err;
-  const std::string response = contents(folder_ / "card/response.csv");
+  const std::string response = press("card", {by_card});
   EXPECT_GT(response.size(), 200u);
-  EXPECT_EQ(response, contents(folder_ / "hand/response.csv"));
-  const ProgramResult lasting =
-      press("lasting", {"rubber.card=laws/material.toml", "rubber.relaxation=[]"});
-  ASSERT_EQ(lasting.code, 0) << lasting.err;
-  EXPECT_NE(response, contents(folder_ / "lasting/response.csv"));
+  EXPECT_EQ(response, press("hand", {"rubber.shear_modulus=" + g, "rubber.law=neo-hookean",
+                                     "rubber.relaxation=[[" + share + ", \"" + tau + "\"]]"}));
+  EXPECT_NE(response, press("lasting", {by_card, "rubber.relaxation=[]"}));
   // In equilibrium there is no time.
-  const ProgramResult refused =
-      run_program(folder_.path(), {"press", "--set", "press.mode=static", "--set",
-                                   "lattice.model=network", "--set", "rubber.poissons_ratio=0.45",
-                                   "--set", "rubber.card=laws/material.toml", "--out", "static"});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("laws/material.toml"), std::string::npos) << refused.err;
-  EXPECT_NE(refused.err.find("rubber.relaxation = []"), std::string::npos) << refused.err;
+  folder_.expect_refused("press --out static", network + Words{"press.mode=static", by_card},
+                         {"laws/material.toml", "rubber.relaxation = []"});
 }
 
 /// A foam, 0.6 MPa in tension and 0.25 MPa in compression, which no law that keeps its volume
 /// meets.
 TEST(MaterialVerdict, WhatIsNotMetIsNotAcceptedButByForce) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   std::string pulled = "e,s\n", pressed = pulled;
   for (int i = 1; i <= 20; ++i) {
     pulled += std::to_string(0.01 * i) + "," + std::to_string(0.006 * i) + "\n";
     pressed += std::to_string(-0.01 * (21 - i)) + "," + std::to_string(-0.0025 * (21 - i)) + "\n";
   }
-  write_text(folder / "pulled.csv", pulled);
-  write_text(folder / "pressed.csv", pressed);
-  write_text(folder / "tests.toml",
+  folder.put("pulled.csv", pulled);
+  folder.put("pressed.csv", pressed);
+  folder.put("tests.toml",
              "[data]\nstrain = {column = \"e\", is = \"engineering\"}\n"
              "stress = {column = \"s\", is = \"nominal\", unit = \"MPa\"}\n"
              "[[test]]\nkind = \"uniaxial\"\nname = \"tension\"\npath = \"pulled.csv\"\n"
              "[[test]]\nkind = \"uniaxial\"\nname = \"compression\"\npath = \"pressed.csv\"\n");
-  const auto fit = [&](std::vector<std::string> more) {
-    std::vector<std::string> all = {"calibrate", "--set", "calibration.problem=material", "--set",
-                                    "calibration.tests=tests.toml"};
-    all.insert(all.end(), more.begin(), more.end());
-    return run_program(folder.path(), all);
-  };
-  const ProgramResult refused = fit({"--out", "foam"});
-  EXPECT_EQ(refused.code, 4) << refused.err;
-  EXPECT_EQ(refused.out.rfind("Not accepted: ", 0), 0u) << refused.out;
-  for (const char* part : {"not accepted: the law does not describe the data: ",
-                           "compression and tension contradict each other", " kPa in tension",
-                           "Is it compressible", "no material.toml is written"})
-    EXPECT_NE(refused.err.find(part), std::string::npos) << part << " in " << refused.err;
-  EXPECT_FALSE(fs::exists(folder / "foam/material.toml"));
-  const ProgramResult forced = fit({"--out", "foam", "--force"});
-  EXPECT_EQ(forced.code, 4);
-  EXPECT_NE(contents(folder / "foam/material.toml").find("rejected = \"the law does not describe"),
-            std::string::npos);
-  const ProgramResult checked =
-      run_program(folder.path(), {"press", "--set", "rubber.card=foam/material.toml", "--set",
-                                  "rubber.poissons_ratio=0.45", "--set", "press.mode=static",
-                                  "--set", "press.depth=0.02 cm", "--set", "lattice.model=network",
-                                  "--set", "lattice.spacing=tip_radius/5", "--out", "press"});
-  EXPECT_EQ(checked.code, 0) << checked.err;
-  EXPECT_NE(checked.err.find("the fit failed its own tests: "), std::string::npos) << checked.err;
+  const Words material = {"calibration.problem=material", "calibration.tests=tests.toml"};
+  const ProgramResult refused = folder.run("calibrate --out foam", material, 4);
+  EXPECT_TRUE(refused.out.starts_with("Not accepted: ")) << refused.out;
+  EXPECT_TRUE(says(refused.err, {"not accepted: the law does not describe the data: ",
+                                 "compression and tension contradict each other", " kPa in tension",
+                                 "Is it compressible", "no material.toml is written"}));
+  EXPECT_FALSE(folder.has("foam/material.toml"));
+  folder.run("calibrate --out foam --force", material, 4);
+  EXPECT_TRUE(says(folder.text("foam/material.toml"), "rejected = \"the law does not describe"));
+  EXPECT_TRUE(says(
+      folder
+          .run("press --out press",
+               {"rubber.card=foam/material.toml", "rubber.poissons_ratio=0.45", "press.mode=static",
+                "press.depth=0.02 cm", "lattice.model=network", "lattice.spacing=tip_radius/5"})
+          .err,
+      "the fit failed its own tests: "));
 }
 
 /// Of two cases one needs data that are not here: the other is carried out, and that is told.
@@ -182,41 +135,31 @@ TEST_F(MaterialInTime, ACaseWithoutItsDataIsSkippedAmongOthers) {
       "set = { \"calibration.tests\" = \"../../tests.toml\" }\n";
   const std::string criterion =
       "[[case.criteria]]\nname = \"met\"\nmeasure = \"relaxing.fit_error\"\nlimit = 0.001\n";
-  fs::create_directories(folder_ / "cases/21_here");
-  fs::create_directories(folder_ / "cases/22_elsewhere");
-  write_text(folder_ / "cases/21_here/case.toml", fit + run + criterion);
-  write_text(
-      folder_ / "cases/22_elsewhere/case.toml",
+  std::filesystem::create_directories(folder_ / "cases/21_here");
+  std::filesystem::create_directories(folder_ / "cases/22_elsewhere");
+  folder_.put("cases/21_here/case.toml", fit + run + criterion);
+  folder_.put(
+      "cases/22_elsewhere/case.toml",
       fit + "[case.data]\nfolder = \"FINGERTIP_NO_SUCH_DATA\"\nsource = \"the library\"\n" + run);
   setenv("FINGERTIP_CASES", (folder_ / "cases").c_str(), 1);
-  const ProgramResult all = run_program(folder_.path(), {"validate", "--all", "--out", "all"});
-  const ProgramResult alone = run_program(folder_.path(), {"validate", "22", "--out", "alone"});
-  const ProgramResult checked =
-      run_program(folder_.path(), {"check", (folder_ / "cases/22_elsewhere/case.toml").string()});
+  EXPECT_TRUE(says(folder_.run("validate --all --out all").err,
+                   "22_elsewhere is skipped: its data are no part of the project: get the library, "
+                   "and name their folder in FINGERTIP_NO_SUCH_DATA"));
+  folder_.expect_refused("validate 22 --out alone", {}, {"get the library"});
+  folder_.run("check cases/22_elsewhere/case.toml");  // right or wrong without its data
   unsetenv("FINGERTIP_CASES");
-  EXPECT_EQ(all.code, 0) << all.err << all.out;
-  const std::string told =
-      "22_elsewhere is skipped: its data are no part of the project: get the library, and name "
-      "their folder in FINGERTIP_NO_SUCH_DATA";
-  EXPECT_NE(all.err.find(told), std::string::npos) << all.err;
-  EXPECT_TRUE(fs::exists(folder_ / "all/21_here/materials/relaxing/laws/laws.json"));
-  EXPECT_FALSE(fs::exists(folder_ / "all/22_elsewhere"));
-  const auto summary = nlohmann::json::parse(contents(folder_ / "all/21_here/summary.json"));
-  EXPECT_EQ(summary["materials"][0]["law"], "neo-hookean+prony-1");
-  EXPECT_LT(summary["materials"][0]["fit_error"].get<double>(), 1e-3);
-  EXPECT_EQ(alone.code, 2);
-  EXPECT_NE(alone.err.find("get the library"), std::string::npos) << alone.err;
-  EXPECT_EQ(checked.code, 0) << checked.err << "a case is right or wrong without its data";
+  EXPECT_TRUE(folder_.has("all/21_here/materials/relaxing/laws/laws.json"));
+  EXPECT_FALSE(folder_.has("all/22_elsewhere"));
+  const auto relaxing = folder_.json("all/21_here/summary.json")["materials"][0];
+  EXPECT_EQ(relaxing["law"], "neo-hookean+prony-1");
+  EXPECT_LT(relaxing["fit_error"].get<double>(), 1e-3);
 }
 
 TEST_F(MaterialInTime, TellsFileAndLineOfTimesThatStepBack) {
-  write_text(folder_ / "bad.csv", "t,g,s\n0,0,0\n1,0.1,1\n0.5,0.2,2\n");
+  folder_.put("bad.csv", "t,g,s\n0,0,0\n1,0.1,1\n0.5,0.2,2\n");
   describe("bad.csv");
-  const ProgramResult refused = fit();
-  EXPECT_EQ(refused.code, 2);
-  for (const char* part : {"calibration.tests", "bad.csv:4", "0.5 after 1", "times must increase",
-                           "rows = [first, last]"})
-    EXPECT_NE(refused.err.find(part), std::string::npos) << part << " in " << refused.err;
+  EXPECT_TRUE(says(fit(2).err, {"calibration.tests", "bad.csv:4", "0.5 after 1",
+                                "times must increase", "rows = [first, last]"}));
 }
 
 }  // namespace

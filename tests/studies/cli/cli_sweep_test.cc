@@ -4,15 +4,11 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
-#include <set>
 #include <sstream>
-#include <thread>
 
 #include "meshes/tables/csv_table.h"
-#include "tests/studies/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/workplace.h"
 
 namespace {
 
@@ -21,39 +17,24 @@ namespace fs = std::filesystem;
 constexpr const char* examples = FINGERTIP_SOURCES "/studies/sweep/examples";
 
 /// Six static presses, each well below a second.
-std::vector<std::string> sweep(const std::vector<std::string>& more) {
-  std::vector<std::string> words{"sweep"};
-  for (const char* set : {"press.mode=static", "press.contact=frictionless",
-                          "press.samples=[\"0.05 cm\"]", "lattice.model=[\"hookean\", \"network\"]",
-                          "lattice.spacing=[\"tip_radius/4\", \"0.22 cm\", \"tip_radius/5\"]"}) {
-    words.insert(words.end(), {"--set", set});
-  }
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
+const Words six_presses = {"press.mode=static", "press.contact=frictionless",
+                           "press.samples=[\"0.05 cm\"]",
+                           "lattice.model=[\"hookean\", \"network\"]",
+                           "lattice.spacing=[\"tip_radius/4\", \"0.22 cm\", \"tip_radius/5\"]"};
 
 /// First words of the lines of `text`.
-std::vector<std::string> first_words(const std::string& text) {
-  std::vector<std::string> words;
+Words first_words(const std::string& text) {
+  Words words;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
     words.push_back(line.substr(0, line.find('\t')));
   return words;
 }
 
-std::vector<std::string> listed(const TemporaryFolder& folder,
-                                const std::vector<std::string>& more) {
-  std::vector<std::string> words = sweep({"--list"});
-  words.insert(words.end(), more.begin(), more.end());
-  const ProgramResult result = run_program(folder.path(), words);
-  EXPECT_EQ(result.code, 0) << result.err;
-  return first_words(result.out);
-}
-
 /// The table's lines without what wall time makes differ.
-std::vector<std::string> stable_columns(const fs::path& table) {
+Words stable_columns(const fs::path& table) {
   std::istringstream lines(read_text(table));
-  std::vector<std::string> kept;
+  Words kept;
   for (std::string line; std::getline(lines, line);) {
     // point, status and the two axes
     std::size_t end = 0;
@@ -74,49 +55,46 @@ int bash(const fs::path& folder, const std::string& command) {
 void expect_example_done(const fs::path& results) {
   const auto lines = stable_columns(results / "table.csv");
   ASSERT_EQ(lines.size(), 13U);
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    EXPECT_NE(lines[i].find(",finished,"), std::string::npos) << lines[i];
-  }
+  for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_TRUE(says(lines[i], ",finished,"));
 }
 
 }  // namespace
 
 TEST(SweepVerb, ShardsAreDisjointAndMakeUpTheWholeInAnyOrderOfWriting) {
-  const TemporaryFolder folder;
-  const auto whole = listed(folder, {});
+  const Workplace folder;
+  const Words whole = first_words(folder.run("sweep --list", six_presses).out);
   ASSERT_EQ(whole.size(), 6U);
   EXPECT_TRUE(std::ranges::is_sorted(whole));
   for (const int n : {1, 2, 4, 6, 9}) {
-    std::vector<std::string> joined;
+    Words joined;
     for (int i = 1; i <= n; ++i) {
-      const auto part = listed(folder, {"--shard", std::to_string(i) + "/" + std::to_string(n)});
+      const std::string shard = std::to_string(i) + "/" + std::to_string(n);
+      const Words part = first_words(folder.run("sweep --list --shard " + shard, six_presses).out);
       EXPECT_LE(part.size(), std::size_t((6 + n - 1) / n));
-      joined.insert(joined.end(), part.begin(), part.end());
+      joined = joined + part;
     }
     std::ranges::sort(joined);
     EXPECT_EQ(joined, whole) << n;
   }
   // The same axes with keys and values the other way round, and another number of threads.
-  const ProgramResult turned = run_program(
-      folder.path(),
-      {"sweep", "--list", "--threads", "3", "--set",
-       "lattice.spacing=[\"tip_radius/5\",\"tip_radius/4\",\"0.22 cm\",\"tip_radius/5\"]", "--set",
-       "lattice.model=[\"network\",\"hookean\"]", "--set", "press.samples=[\"0.05 cm\"]", "--set",
-       "press.contact=frictionless", "--set", "press.mode=static"});
-  EXPECT_EQ(first_words(turned.out), whole) << turned.err;
+  const Words turned = {
+      R"(lattice.spacing=["tip_radius/5","tip_radius/4","0.22 cm","tip_radius/5"])",
+      R"(lattice.model=["network","hookean"])", R"(press.samples=["0.05 cm"])",
+      "press.contact=frictionless", "press.mode=static"};
+  EXPECT_EQ(first_words(folder.run("sweep --list --threads 3", turned).out), whole);
 }
 
 /// A press that moves laterally has a column more than one that does not.
 TEST(SweepVerb, CurvesOfDifferentColumnsStandInOneTable) {
-  const TemporaryFolder folder;
-  const ProgramResult result =
-      run_program(folder.path(),
-                  {"sweep", "--out", "lateral", "--set", "press.mode=static", "--set",
-                   "lattice.spacing=tip_radius/4", "--set", "press.samples=[\"0.5 mm\", \"1 mm\"]",
-                   "--set", "press.depth=1 mm", "--set", "press.lateral_path=after", "--set",
-                   "press.lateral_samples=2", "--set", "press.lateral=[\"0 mm\", \"0.2 mm\"]"});
-  EXPECT_EQ(result.code, 0) << result.err << result.out;
-  EXPECT_NE(result.out.find("2 finished"), std::string::npos) << result.out;
+  const Workplace folder;
+  EXPECT_TRUE(says(
+      folder
+          .run("sweep --out lateral", {"press.mode=static", "lattice.spacing=tip_radius/4",
+                                       R"(press.samples=["0.5 mm", "1 mm"])", "press.depth=1 mm",
+                                       "press.lateral_path=after", "press.lateral_samples=2",
+                                       R"(press.lateral=["0 mm", "0.2 mm"])"})
+          .out,
+      "2 finished"));
   const auto curves = fingertip::meshes::read_csv(folder / "lateral/curves.csv");
   const auto sideways = curves.texts("lateral_displacement [m]");
   ASSERT_EQ(sideways.size(), 2U + 4U);
@@ -127,88 +105,74 @@ TEST(SweepVerb, CurvesOfDifferentColumnsStandInOneTable) {
 }
 
 TEST(SweepVerb, TwoShardsAtATimeGiveTheTableOfTheWhole) {
-  const TemporaryFolder folder, other;
-  ASSERT_EQ(run_program(other.path(), sweep({"--out", "whole", "--threads", "1"})).code, 0);
-  fs::create_directory(folder / "a");
-  fs::create_directory(folder / "b");
-  Program first(folder / "a", sweep({"--out", "../results", "--shard", "1/2", "--threads", "1"}));
-  Program second(folder / "b", sweep({"--out", "../results", "--shard", "2/2", "--threads", "1"}));
+  const Workplace folder, other, second_place;
+  other.run("sweep --out whole --threads 1", six_presses);
+  const std::string shared = "sweep --threads 1 --out " + (folder / "results").string();
+  Program first = folder.start(shared + " --shard 1/2", six_presses);
+  Program second = second_place.start(shared + " --shard 2/2", six_presses);
   const ProgramResult of_first = first.wait(), of_second = second.wait();
   EXPECT_EQ(of_first.code, 0) << of_first.err;
   EXPECT_EQ(of_second.code, 0) << of_second.err;
-  const ProgramResult table =
-      run_program(folder.path(), {"sweep", "--collect", "--out", "results"});
-  EXPECT_EQ(table.code, 0) << table.err << table.out;
+  folder.run("sweep --collect --out results");
   EXPECT_EQ(stable_columns(folder / "results/table.csv"),
             stable_columns(other / "whole/table.csv"));
-  EXPECT_EQ(read_text(folder / "results/curves.csv"), read_text(other / "whole/curves.csv"));
-  const std::string text = read_text(folder / "results/table.csv");
-  EXPECT_NE(text.find("census.particles"), std::string::npos);
+  EXPECT_EQ(folder.text("results/curves.csv"), other.text("whole/curves.csv"));
   // The answer stands behind the axes.
-  EXPECT_NE(text.find("lattice.spacing,indentation [m],normal_force [N],contact_radius [m],"),
-            std::string::npos)
-      << text.substr(0, text.find('\n'));
+  EXPECT_TRUE(says(folder.text("results/table.csv"),
+                   {"census.particles",
+                    "lattice.spacing,indentation [m],normal_force [N],contact_radius [m],"}));
 }
 
 TEST(SweepVerb, AKilledShardGoesOnWhereItWas) {
-  const TemporaryFolder folder;
-  const auto words = sweep({"--out", "results", "--shard", "1/1", "--threads", "1"});
-  Program killed(folder.path(), words);
-  for (int wait = 0; wait < 500 && read_text(folder / "stdout").find("[1/6]") == std::string::npos;
-       ++wait) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
+  const Workplace folder;
+  const std::string command = "sweep --out results --shard 1/1 --threads 1";
+  Program killed = folder.start(command, six_presses);
+  folder.hears("[1/6]");
   killed.send(SIGKILL);
   killed.wait();
-  const ProgramResult part = run_program(folder.path(), {"sweep", "--collect", "--out", "results"});
-  const bool in_time = part.code == 3;  // else it was quicker than the signal
-  const ProgramResult rest = run_program(folder.path(), words);
-  EXPECT_EQ(rest.code, 0) << rest.err;
-  EXPECT_NE(rest.out.find("(earlier)"), std::string::npos) << rest.out;
-  EXPECT_TRUE(!in_time || rest.out.find("finished\n") != std::string::npos) << rest.out;
-  EXPECT_EQ(run_program(folder.path(), {"sweep", "--collect", "--out", "results"}).code, 0);
+  // Else it was quicker than the signal.
+  const bool in_time = folder.run("sweep --collect --out results", {}, any_code).code == 3;
+  const std::string rest = folder.run(command, six_presses).out;
+  EXPECT_TRUE(says(rest, "(earlier)"));
+  EXPECT_TRUE(!in_time || says(rest, "finished\n")) << rest;
+  folder.run("sweep --collect --out results");
 }
 
 TEST(SweepVerb, BadInputIsToldBeforeAnythingIsMade) {
-  const auto refused = [](std::vector<std::string> words, const std::string& told) {
-    const TemporaryFolder folder;
-    words.insert(words.begin(), "sweep");
-    const ProgramResult result = run_program(folder.path(), words);
-    EXPECT_EQ(result.code, 2) << result.out;
-    EXPECT_NE(result.err.find(told), std::string::npos) << result.err;
-    EXPECT_TRUE(made_in(folder.path()).empty());
-  };
-  refused({"--out", "r"}, "no key has a list of values");
-  refused({"--out", "r", "--shard", "0/4", "--set", "press.speed=[\"1 cm/s\"]"}, "1 <= i <= N");
-  refused({"--out", "r", "--shard", "5/4", "--set", "press.speed=[\"1 cm/s\"]"}, "1 <= i <= N");
-  refused({"--out", "r", "--set", "press.speed=[\"1 cm\"]"}, "press.speed");
-  refused({"--out", "r", "--set", "press.speed=[]"}, "list");
-  refused({"--out", "r", "--set", "lattice.spacing=[\"tip_radius/8\", \"0.9 cm\"]"},
-          "two cells through the rubber");
-  refused({"validate", "--out", "r", "--set", "press.speed=[\"1 cm/s\"]"}, "press, modes");
-  refused({"--set", "press.speed=[\"1 cm/s\"]"}, "--out DIR");
-  refused({"--collect", "--out", "r"}, "not the folder of a sweep");
+  const Workplace folder;
+  const std::string speeds = "press.speed=[\"1 cm/s\"]";
+  for (const auto& [command, settings, told] :
+       std::vector<std::tuple<std::string, Words, std::string>>{
+           {"sweep --out r", {}, "no key has a list of values"},
+           {"sweep --out r --shard 0/4", {speeds}, "1 <= i <= N"},
+           {"sweep --out r --shard 5/4", {speeds}, "1 <= i <= N"},
+           {"sweep --out r", {"press.speed=[\"1 cm\"]"}, "press.speed"},
+           {"sweep --out r", {"press.speed=[]"}, "list"},
+           {"sweep --out r",
+            {R"(lattice.spacing=["tip_radius/8", "0.9 cm"])"},
+            "two cells through the rubber"},
+           {"sweep validate --out r", {speeds}, "press, modes"},
+           {"sweep", {speeds}, "--out DIR"},
+           {"sweep --collect --out r", {}, "not the folder of a sweep"}})
+    folder.expect_refused(command, settings, told);
 }
 
 TEST(SweepVerb, AFolderBelongsToOneSweep) {
-  const TemporaryFolder folder;
-  const auto quick = [&](const char* spacings, std::vector<std::string> more) {
-    std::vector<std::string> words{
-        "sweep", "--out", "r", "--set", "press.mode=static", "--set", "press.samples=[\"0.05 cm\"]",
-        "--set", spacings};
-    words.insert(words.end(), more.begin(), more.end());
-    return run_program(folder.path(), words);
+  const Workplace folder;
+  const auto quick = [&](const std::string& spacing, const std::string& more, int code) {
+    return folder.run("sweep --out r" + more,
+                      {"press.mode=static", "press.samples=[\"0.05 cm\"]",
+                       "lattice.spacing=[\"" + spacing + "\"]"},
+                      code);
   };
-  ASSERT_EQ(quick("lattice.spacing=[\"tip_radius/4\"]", {}).code, 0);
-  EXPECT_EQ(quick("lattice.spacing=[\"tip_radius/4\"]", {}).code, 2);
-  EXPECT_EQ(quick("lattice.spacing=[\"tip_radius/4\"]", {"--resume", "auto"}).code, 0);
-  const ProgramResult other = quick("lattice.spacing=[\"0.22 cm\"]", {"--shard", "1/1"});
-  EXPECT_EQ(other.code, 2);
-  EXPECT_NE(other.err.find("another sweep"), std::string::npos) << other.err;
+  quick("tip_radius/4", "", 0);
+  quick("tip_radius/4", "", 2);
+  quick("tip_radius/4", " --resume auto", 0);
+  EXPECT_TRUE(says(quick("0.22 cm", " --shard 1/1", 2).err, "another sweep"));
 }
 
 TEST(SweepExamples, ASlurmArrayComputesTheExample) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   const std::string script = std::string("bash ") + examples + "/slurm_array.sh";
   ASSERT_EQ(bash(folder.path(),
                  "for i in 1 2 3 4; do SLURM_ARRAY_TASK_ID=$i "
@@ -220,7 +184,7 @@ TEST(SweepExamples, ASlurmArrayComputesTheExample) {
 }
 
 TEST(SweepExamples, GnuParallelComputesTheExample) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   ASSERT_EQ(bash(folder.path(), std::string("SHARDS=3 bash ") + examples + "/gnu_parallel.sh"), 0)
       << read_text(folder / "words");
   expect_example_done(folder / "results");
@@ -228,7 +192,7 @@ TEST(SweepExamples, GnuParallelComputesTheExample) {
 
 TEST(SweepExamples, SnakemakeComputesTheExample) {
   if (std::system("command -v snakemake > /dev/null") != 0) GTEST_SKIP() << "no snakemake here";
-  const TemporaryFolder folder;
+  const Workplace folder;
   ASSERT_EQ(
       bash(folder.path(), std::string("snakemake --cores 2 -s ") + examples +
                               "/Snakefile --config fingertip=$FINGERTIP sweep=$SWEEP shards=3"),

@@ -2,39 +2,31 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-
 #include "meshes/tables/table_rows.h"
 #include "studies/files/run_tables.h"
-#include "tests/studies/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/workplace.h"
 
-namespace fs = std::filesystem;
 namespace meshes = fingertip::meshes;
 namespace studies = fingertip::studies;
 using nlohmann::json;
 
 namespace {
 
-const std::vector<std::string> shape_files = {"boundary.csv", "boundary_springs.csv",
-                                              "snapshots.csv", "snapshot_points.csv"};
+const Words shape_files = {"boundary.csv", "boundary_springs.csv", "snapshots.csv",
+                           "snapshot_points.csv"};
 
-ProgramResult press_at_rest(const fs::path& folder, const std::string& out) {
-  return run_program(
-      folder, {"press", "--set", "press.mode=static", "--set", "lattice.spacing=tip_radius/5",
-               "--set", "press.samples=[\"0.05 cm\", \"0.1 cm\"]", "--out", out});
+ProgramResult press_at_rest(const Workplace& folder, const std::string& out) {
+  return folder.run("press --out " + out, {"press.mode=static", "lattice.spacing=tip_radius/5",
+                                           "press.samples=[\"0.05 cm\", \"0.1 cm\"]"});
 }
 
-bool draws_snapshots(const fs::path& page) {
-  return read_text(page).find("<section id=\"snapshots\">") != std::string::npos;
-}
+const std::string drawn = "<section id=\"snapshots\">";
 
 }  // namespace
 
 TEST(SnapshotFiles, AtTheEndOfAStaticPressTheTipTouchesThePlane) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(press_at_rest(folder.path(), "run").code, 0);
+  const Workplace folder;
+  press_at_rest(folder, "run");
   const auto snapshots = meshes::read_rows<studies::SnapshotRow>(folder / "run/snapshots.csv");
   ASSERT_EQ(snapshots.size(), 3U);
   EXPECT_EQ(snapshots[0].moment, "first touch");
@@ -59,36 +51,32 @@ TEST(SnapshotFiles, AtTheEndOfAStaticPressTheTipTouchesThePlane) {
 }
 
 TEST(SnapshotFiles, OfAStaticPressComeFromTheCacheAndAreDrawn) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(press_at_rest(folder.path(), "one").code, 0);
-  const ProgramResult again = press_at_rest(folder.path(), "two");
-  EXPECT_NE(again.out.find("earlier run"), std::string::npos) << again.out;
-  const json files = json::parse(read_text(folder / "one/finished.json"))["files"];
+  const Workplace folder;
+  press_at_rest(folder, "one");
+  EXPECT_TRUE(says(press_at_rest(folder, "two").out, "earlier run"));
+  const json files = folder.json("one/finished.json")["files"];
   for (const std::string& file : shape_files) {
     EXPECT_TRUE(files.contains(file)) << file;
-    EXPECT_EQ(read_text(folder / "one" / file), read_text(folder / "two" / file)) << file;
+    EXPECT_EQ(folder.text("one/" + file), folder.text("two/" + file)) << file;
   }
-  ASSERT_EQ(run_program(folder.path(), {"report", "two"}).code, 0);
-  EXPECT_TRUE(draws_snapshots(folder / "two/report.html"));
-  EXPECT_TRUE(fs::exists(folder / "two/figures/snapshots_1.svg"));
+  folder.run("report two");
+  EXPECT_TRUE(says(folder.text("two/report.html"), drawn));
+  EXPECT_TRUE(folder.has("two/figures/snapshots_1.svg"));
 }
 
 // Neither the files nor, in summary.json, the finger's measures.
 TEST(SnapshotFiles, AStaticPressOfEarlierVersionsIsReportedWithoutThem) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(press_at_rest(folder.path(), "old").code, 0);
-  json finished = json::parse(read_text(folder / "old/finished.json"));
+  const Workplace folder;
+  press_at_rest(folder, "old");
+  json finished = folder.json("old/finished.json");
   for (const std::string& file : shape_files) {
-    ASSERT_TRUE(fs::remove(folder / "old" / file));
+    ASSERT_TRUE(std::filesystem::remove(folder / "old" / file));
     ASSERT_EQ(finished["files"].erase(file), 1U);
   }
-  write_text(folder / "old/finished.json", finished.dump());
-  json summary = json::parse(read_text(folder / "old/summary.json"));
+  folder.put("old/finished.json", finished.dump());
+  json summary = folder.json("old/summary.json");
   ASSERT_EQ(summary.erase("geometry"), 1U);
-  write_text(folder / "old/summary.json", summary.dump());
-  const ProgramResult report = run_program(folder.path(), {"report", "old"});
-  EXPECT_EQ(report.code, 0) << report.err;
-  EXPECT_EQ(report.err, "");
-  EXPECT_FALSE(draws_snapshots(folder / "old/report.html"));
-  EXPECT_EQ(read_text(folder / "old/report.html").find("is missing"), std::string::npos);
+  folder.put("old/summary.json", summary.dump());
+  EXPECT_EQ(folder.run("report old").err, "");
+  EXPECT_TRUE(omits(folder.text("old/report.html"), {drawn, "is missing"}));
 }
