@@ -3,15 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
 
-#include "meshes/press/press_response.h"
-#include "tests/studies/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/workplace.h"
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
@@ -19,19 +15,18 @@ namespace {
 /// As the key's default, 40 gf/cm².
 constexpr double modulus = 3922.66, share = 0.25, fading_time = 0.3;
 constexpr const char* given = "rubber.relaxation=[[0.25, \"0.3 s\"]]";
-const std::vector<std::string> small = {"press.contact=frictionless", "lattice.kinematics=small",
-                                        "reference.fields=false"};
+const Words small = {"press.contact=frictionless", "lattice.kinematics=small",
+                     "reference.fields=false"};
 
 /// Pressed at 1 cm/s by 2 mm, held for a second, touched at 0.28 mm; `noise` of the largest force.
-void measure(const fs::path& folder, double noise) {
-  std::vector<std::string> settings = small;
-  settings.insert(settings.end(), {"press.mode=quasi-static", given,
-                                   "press.program=[[\"2 mm\", \"1 cm/s\"], [\"hold\", \"1 s\"]]"});
+void measure(const Workplace& folder, double noise) {
   const ProgramResult run =
-      run_program(folder, with_settings({"reference", "--out", "press"}, settings));
+      folder.run("reference --out press",
+                 small + Words{"press.mode=quasi-static", given,
+                               R"(press.program=[["2 mm", "1 cm/s"], ["hold", "1 s"]])"},
+                 any_code);
   ASSERT_TRUE(run.code == 0 || run.code == 3) << run.err;  // 3: error bars above the tolerance
-  const auto response =
-      fingertip::meshes::PressResponse::read_csv(folder / "press" / "response.csv");
+  const auto response = folder.response("press");
   double largest = 0.0;
   for (const auto& sample : response.samples()) largest = std::max(largest, sample.normal_force);
   std::mt19937 random(5);
@@ -44,23 +39,15 @@ void measure(const fs::path& folder, double noise) {
     text << 0.28 + 1e3 * sample.indentation << ';'
          << 1e3 * (sample.normal_force + noise * largest * normal(random)) << ';' << sample.time
          << ';' << 1e3 * noise * largest << '\n';
-  write_text(folder / "travel.csv", text.str());
+  folder.put("travel.csv", text.str());
 }
 
-ProgramResult calibrate(const fs::path& folder, const std::string& out,
-                        const std::vector<std::string>& settings) {
-  std::vector<std::string> all = small;
-  all.insert(all.end(), {"calibration.problem=experiment", "calibration.data=[\"travel.csv\"]",
-                         "calibration.candidates=[]", "calibration.forward=continuum"});
-  all.insert(all.end(), settings.begin(), settings.end());
-  return run_program(folder, with_settings({"calibrate", "--out", out}, all));
-}
+const Words fit_settings = {"calibration.problem=experiment", "calibration.data=[\"travel.csv\"]",
+                            "calibration.candidates=[]", "calibration.forward=continuum"};
 
-json fitted(const fs::path& folder, const std::string& out,
-            const std::vector<std::string>& settings) {
-  const ProgramResult run = calibrate(folder, out, settings);
-  EXPECT_TRUE(run.code == 0 || run.code == 4) << run.err;
-  return json::parse(read_text(folder / out / "calibration.json"));
+json fitted(const Workplace& folder, const std::string& out, const Words& settings) {
+  folder.run("calibrate --out " + out, small + fit_settings + settings, judged);
+  return folder.json(out + "/calibration.json");
 }
 
 const json& parameter(const json& fit, const std::string& name) {
@@ -84,22 +71,20 @@ void expect_found(const json& fit, const std::string& name, double truth, double
 }  // namespace
 
 TEST(RelaxingPressFit, FindsModulusAndBranchThatAnElasticFitMisses) {
-  const TemporaryFolder folder;
-  measure(folder.path(), 0.002);
-  const json elastic = fitted(folder.path(), "elastic", {"calibration.parameters=[\"modulus\"]"});
+  const Workplace folder;
+  measure(folder, 0.002);
+  const json elastic = fitted(folder, "elastic", {"calibration.parameters=[\"modulus\"]"});
   const double wrong = parameter(elastic, "modulus")["estimate"];
   std::printf("elastic: modulus = %.5g\n", wrong);
   EXPECT_GT(wrong, 1.15 * modulus) << "what is at once is G0, a third more";
-  const std::string statement = elastic["statement"];
-  EXPECT_NE(statement.find("\"relaxation\""), std::string::npos) << statement;
+  EXPECT_TRUE(says(elastic["statement"], "\"relaxation\""));
 
-  const json known =
-      fitted(folder.path(), "known", {"calibration.parameters=[\"modulus\"]", given});
+  const json known = fitted(folder, "known", {"calibration.parameters=[\"modulus\"]", given});
   expect_found(known, "modulus", modulus, 0.03);
   EXPECT_GT(known["chi_square_probability"], 1e-2) << known["statement"];
 
   const json sought =
-      fitted(folder.path(), "sought", {"calibration.parameters=[\"modulus\", \"relaxation\"]"});
+      fitted(folder, "sought", {"calibration.parameters=[\"modulus\", \"relaxation\"]"});
   expect_found(sought, "modulus", modulus, 0.04);
   expect_found(sought, "relaxation_g1", share, 0.05);
   expect_found(sought, "relaxation_tau1", fading_time, 0.15);
@@ -108,35 +93,27 @@ TEST(RelaxingPressFit, FindsModulusAndBranchThatAnElasticFitMisses) {
   EXPECT_EQ(sought["failed"].size(), 0U) << sought["failed"];
 
   // The material takes its branches along.
-  const ProgramResult press = run_program(
-      folder.path(),
-      with_settings({"press", "--out", "again"},
-                    {"lattice.constants=sought/material.toml", "lattice.spacing=tip_radius/6",
-                     "press.mode=quasi-static", "press.contact=frictionless", "press.depth=0.5 mm",
-                     "press.samples=[]"}));
-  EXPECT_EQ(press.code, 0) << press.err;
-  EXPECT_NE(read_text(folder / "again" / "parameters.toml").find("relaxation = [[0.2"),
-            std::string::npos);
+  folder.run("press --out again",
+             {"lattice.constants=sought/material.toml", "lattice.spacing=tip_radius/6",
+              "press.mode=quasi-static", "press.contact=frictionless", "press.depth=0.5 mm",
+              "press.samples=[]"});
+  EXPECT_TRUE(says(folder.text("again/parameters.toml"), "relaxation = [[0.2"));
 }
 
 TEST(RelaxingPressFit, RefusesWhatItCannotKnow) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   std::ostringstream rows;
   for (int i = 1; i <= 20; ++i) rows << 0.1 * i << ';' << std::pow(0.1 * i, 1.5) << '\n';
-  write_text(folder / "travel.csv", "indentation [mm];force [mN]\n" + rows.str());
-  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{given}, "depend on time"},
-      {{given, "rubber.relaxation_bulk=false", "press.speed=1 mm/s"}, "rubber.relaxation_bulk"},
-      {{"calibration.parameters=[\"modulus\", \"relaxation_g1\"]"}, "relaxation_tau1"},
-      {{given, "press.speed=1 mm/s", "calibration.bias=true", "calibration.forward=lattice"},
-       "calibration.bias"}};
-  for (const auto& [settings, words] : cases) {
-    const ProgramResult run = calibrate(folder.path(), "out", settings);
-    EXPECT_EQ(run.code, 2) << words;
-    EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
-    EXPECT_FALSE(fs::exists(folder / "out"));
-  }
-  const json timed = fitted(folder.path(), "timed",
+  folder.put("travel.csv", "indentation [mm];force [mN]\n" + rows.str());
+  for (const auto& [settings, words] : std::vector<std::pair<Words, std::string>>{
+           {{given}, "depend on time"},
+           {{given, "rubber.relaxation_bulk=false", "press.speed=1 mm/s"},
+            "rubber.relaxation_bulk"},
+           {{R"(calibration.parameters=["modulus", "relaxation_g1"])"}, "relaxation_tau1"},
+           {{given, "press.speed=1 mm/s", "calibration.bias=true", "calibration.forward=lattice"},
+            "calibration.bias"}})
+    folder.expect_refused("calibrate --out out", small + fit_settings + settings, {words});
+  const json timed = fitted(folder, "timed",
                             {given, "press.speed=1 mm/s", "calibration.parameters=[\"modulus\"]"});
   EXPECT_EQ(timed["rubber"]["relaxation"][0][1], 0.3);
 }

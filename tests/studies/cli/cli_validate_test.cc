@@ -2,16 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <csignal>
-#include <nlohmann/json.hpp>
-#include <thread>
 
-#include "meshes/press/press_response.h"
-#include "tests/studies/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/workplace.h"
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
@@ -59,81 +53,67 @@ limit = 0.1
 }  // namespace
 
 TEST(Validate, GoesFromRubberToReportAndComesFromTheCacheAfterwards) {
-  const TemporaryFolder folder;
-  write_text(folder / "coarse.toml", coarse_case);
-  const ProgramResult first =
-      run_program(folder.path(), {"validate", "coarse.toml", "--out", "one"});
-  ASSERT_EQ(first.code, 0) << first.err;
-  EXPECT_NE(first.out.find("hookean"), std::string::npos);
-  EXPECT_NE(first.out.find("one/report.html"), std::string::npos);
-  for (const char* file :
-       {"report.html", "summary.json", "cubes.csv", "published_study.csv", "equilibrium_study.csv",
-        "parameters.toml", "reference/response.csv", "reference/fields/press.pvd",
-        "published/trace.csv", "central/response.csv", "hookean/boundary.csv",
-        "calibration_hookean/material.toml"}) {
-    EXPECT_TRUE(fs::exists(folder / "one" / file)) << file;
-  }
-  const json summary = json::parse(read_text(folder / "one/summary.json"));
+  const Workplace folder;
+  folder.put("coarse.toml", coarse_case);
+  EXPECT_TRUE(
+      says(folder.run("validate coarse.toml --out one").out, {"hookean", "one/report.html"}));
+  folder.expect_files("one",
+                      {"report.html", "summary.json", "cubes.csv", "published_study.csv",
+                       "equilibrium_study.csv", "parameters.toml", "reference/response.csv",
+                       "reference/fields/press.pvd", "published/trace.csv", "central/response.csv",
+                       "hookean/boundary.csv", "calibration_hookean/material.toml"});
+  const json summary = folder.json("one/summary.json");
   EXPECT_EQ(summary["depths"].size(), 5U);
   for (const char* model : {"published", "central", "hookean"}) {
     const json& entry = summary["models"][model];
-    for (const char* key : {"E_100", "E_110", "E_111", "G", "nu_100", "K", "real_time_factor"}) {
+    for (const char* key : {"E_100", "E_110", "E_111", "G", "nu_100", "K", "real_time_factor"})
       EXPECT_TRUE(entry[key].is_number()) << model << " " << key;
-    }
     EXPECT_EQ(entry["force_error"].size(), 5U);
     EXPECT_EQ(entry["status"], "ok");
   }
   EXPECT_EQ(summary["criteria"][0]["passed"], true);
 
-  const ProgramResult second =
-      run_program(folder.path(), {"validate", "--config", "one/parameters.toml", "--out", "two"});
-  EXPECT_EQ(second.code, 0) << second.err;
-  EXPECT_EQ(read_text(folder / "two/log.txt").find(": started\n"), std::string::npos);
-  json again = json::parse(read_text(folder / "two/summary.json"));
+  folder.run("validate --config one/parameters.toml --out two");
+  EXPECT_TRUE(omits(folder.text("two/log.txt"), ": started\n"));
+  json again = folder.json("two/summary.json");
   again["case"] = summary["case"];
   EXPECT_EQ(again, summary);
 
   // Criteria only judge: nothing is computed anew, and 4 says that one has failed.
-  write_text(folder / "strict.toml", std::string(coarse_case) + impossible_criterion);
-  const ProgramResult strict =
-      run_program(folder.path(), {"validate", "strict.toml", "--out", "three"});
-  EXPECT_EQ(strict.code, 4) << strict.err;
-  EXPECT_TRUE(fs::exists(folder / "three/report.html"));
-  EXPECT_EQ(json::parse(read_text(folder / "three/manifest.json"))["status"], "criteria failed");
+  folder.put("strict.toml", std::string(coarse_case) + impossible_criterion);
+  folder.run("validate strict.toml --out three", {}, 4);
+  EXPECT_TRUE(folder.has("three/report.html"));
+  EXPECT_EQ(folder.json("three/manifest.json")["status"], "criteria failed");
 
-  EXPECT_EQ(run_program(folder.path(), {"report", "three"}).code, 0);
-  EXPECT_EQ(run_program(folder.path(), {"compare", "one", "--out", "compared"}).code, 0);
-  EXPECT_TRUE(fs::exists(folder / "compared/comparison.csv"));
+  folder.run("report three");
+  folder.run("compare one --out compared");
+  EXPECT_TRUE(folder.has("compared/comparison.csv"));
 }
 
 /// Whole, it belongs to the core case and judges it; here it is stopped after its first part.
 TEST(Validate, VerifiesTheContinuumAndKeepsWhatItHasWhenStopped) {
-  const TemporaryFolder folder;
-  write_text(folder / "checks.toml",
+  const Workplace folder;
+  folder.put("checks.toml",
              "[case]\ntitle = \"Checks\"\n"
              "run = [ { verb = \"verification\", name = \"verification\" } ]\n");
-  Program program(folder.path(), {"validate", "checks.toml", "--out", "run"});
-  const fs::path file = folder / "run/verification/verification.json";
-  for (int wait = 0; wait < 2000 && !fs::exists(file); ++wait)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  Program program = folder.start("validate checks.toml --out run");
+  folder.comes("run/verification/verification.json");
   program.send(SIGTERM);
   const ProgramResult stopped = program.wait();
   EXPECT_EQ(stopped.code, 130) << stopped.err;
-  const json checks = json::parse(read_text(file))["checks"];
+  const json checks = folder.json("run/verification/verification.json")["checks"];
   EXPECT_GT(checks.size(), 100U);
   for (const json& check : checks) EXPECT_EQ(check["passed"], true) << check;
 }
 
 TEST(Validate, ReferenceHasExactlyTheSamples) {
-  const TemporaryFolder folder;
-  const ProgramResult result = run_program(
-      folder.path(), {"reference", "--out", "run", "--set", "reference.refinement=0.5", "--set",
-                      "reference.estimate_error=false", "--set", "press.contact=frictionless",
-                      "--set", "press.samples=[\"0.01 cm\", \"0.04 cm\"]"});
-  ASSERT_EQ(result.code, 0) << result.err;
-  const auto response = fingertip::meshes::PressResponse::read_csv(folder / "run/response.csv");
+  const Workplace folder;
+  folder.run("reference --out run",
+             {"reference.refinement=0.5", "reference.estimate_error=false",
+              "press.contact=frictionless", R"(press.samples=["0.01 cm", "0.04 cm"])"});
+  const auto response = folder.response("run");
   ASSERT_EQ(response.samples().size(), 2U);
   EXPECT_EQ(response.samples()[0].indentation, 1e-4);
   EXPECT_EQ(response.samples()[1].indentation, 4e-4);
-  EXPECT_TRUE(fs::exists(folder / "run/fields/press.pvd"));
+  EXPECT_TRUE(folder.has("run/fields/press.pvd"));
 }
