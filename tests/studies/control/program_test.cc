@@ -4,22 +4,17 @@
 #include <signal.h>
 #include <sys/wait.h>
 
-#include <chrono>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 #include "raw_client.h"
-#include "tests/studies/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/workplace.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-using Words = std::vector<std::string>;
 
 /// A process that a test starts and that dies with it.
 class Child {
@@ -55,41 +50,22 @@ class Child {
 
 class OwnController : public testing::Test {
  protected:
-  Words press(Words more) const {
-    Words all = {"press",
-                 "--out",
-                 "run",
-                 "--threads",
-                 "1",
-                 "--set",
-                 "press.depth=0.03 cm",
-                 "--set",
-                 "lattice.spacing=tip_radius/6"};
-    for (const std::string& set : more) {
-      all.push_back("--set");
-      all.push_back(set);
-    }
-    return all;
+  ProgramResult press(const Words& settings, int code, const std::string& out = "run") const {
+    return place_.run("press --threads 1 --out " + out, coarse + settings, code);
   }
-  Words over_socket(const std::string& timeout = "5 s") const {
-    return press({"controller.type=socket", "controller.address=" + address(),
-                  "controller.timeout=" + timeout});
+  /// Starts a press with a controller behind a socket, and waits until it listens and says so.
+  Program listening(const std::string& timeout = "5 s") const {
+    const Words socket = {"controller.type=socket", "controller.address=" + address(),
+                          "controller.timeout=" + timeout};
+    Program program = place_.start("press --threads 1 --out run", coarse + socket);
+    EXPECT_TRUE(place_.hears("waiting for a controller") && fs::exists(path()));
+    return program;
   }
   std::string path() const { return (place_ / "socket").string(); }
   std::string address() const { return "unix:" + path(); }
-  /// Until the program listens, and says so.
-  void wait_for_socket() const {
-    const auto listens = [&] {
-      return read_text(place_ / "stderr").find("waiting for a controller") != std::string::npos;
-    };
-    for (int i = 0; i < 1000 && !listens(); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    ASSERT_TRUE(listens() && fs::exists(path())) << read_text(place_ / "stderr");
-  }
-  json summary() const { return json::parse(read_text(place_ / "run/summary.json")); }
+  json summary() const { return place_.json("run/summary.json"); }
   std::size_t trace_rows() const {
-    std::istringstream in(read_text(place_ / "run/trace.csv"));
+    std::istringstream in(place_.text("run/trace.csv"));
     std::size_t rows = 0;
     for (std::string line; std::getline(in, line);) ++rows;
     return rows == 0 ? 0 : rows - 1;
@@ -97,19 +73,19 @@ class OwnController : public testing::Test {
   /// Exit code 3 with `part` as reason, and everything of the run kept.
   void expect_failed(const ProgramResult& result, const std::string& part, std::size_t rows) {
     EXPECT_EQ(result.code, 3) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
-    EXPECT_NE(result.err.find("run is kept"), std::string::npos) << result.err;
-    const json manifest = json::parse(read_text(place_ / "run/manifest.json"));
+    EXPECT_TRUE(says(result.err, {part, "run is kept"}));
+    const json manifest = place_.json("run/manifest.json");
     EXPECT_EQ(manifest["status"], "controller failed");
     EXPECT_EQ(manifest["exit_code"], 3);
-    EXPECT_NE(manifest["error"].get<std::string>().find(part), std::string::npos) << manifest;
+    EXPECT_TRUE(says(manifest["error"], part));
     EXPECT_TRUE(summary()["status"].get<std::string>().starts_with("controller failed: "));
     EXPECT_EQ(trace_rows(), rows);
-    EXPECT_TRUE(fs::exists(place_ / "run/response.csv"));
-    EXPECT_FALSE(fs::exists(place_ / "run/finished.json"));
+    EXPECT_TRUE(place_.has("run/response.csv"));
+    EXPECT_FALSE(place_.has("run/finished.json"));
   }
 
-  TemporaryFolder place_;
+  const Words coarse = {"press.depth=0.03 cm", "lattice.spacing=tip_radius/6"};
+  const Workplace place_;
 };
 
 /// Answers `count` measurements with no wrench at all.
@@ -124,8 +100,7 @@ void answer(RawClient& client, int count) {
 }  // namespace
 
 TEST_F(OwnController, InPythonRunsTheTaskOfThePaper) {
-  Program program(place_.path(), over_socket());
-  wait_for_socket();
+  Program program = listening();
   Child client({FINGERTIP_PYTHON, FINGERTIP_CONTROL_FOLDER "/examples/client.py", address()});
   const ProgramResult result = program.wait();
   EXPECT_EQ(client.wait(), 0);
@@ -135,7 +110,7 @@ TEST_F(OwnController, InPythonRunsTheTaskOfThePaper) {
   EXPECT_LT(tracking["tilt_deg"].get<double>(), 0.05);
   EXPECT_FALSE(fs::exists(path()));
   // Another process may do something else the next time: nothing of it is in the cache.
-  EXPECT_FALSE(fs::exists(place_ / "cache"));
+  EXPECT_FALSE(place_.has("cache"));
 }
 
 TEST_F(OwnController, AsALibraryIsRecognisedByItsContent) {
@@ -147,34 +122,25 @@ TEST_F(OwnController, AsALibraryIsRecognisedByItsContent) {
                                 " " + folder + "/examples/shared_object/pid_controller.c -lm";
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
   };
-  Words words = press({"controller.type=library", "controller.library=" + object});
+  const Words library = {"controller.type=library", "controller.library=" + object};
   build("-O1");
-  const ProgramResult first = run_program(place_.path(), words);
-  ASSERT_EQ(first.code, 0) << first.err;
+  press(library, 0);
   EXPECT_LT(summary()["tracking"]["speed_deviation"].get<double>(), 0.01);
-  words[2] = "again";
-  EXPECT_NE(run_program(place_.path(), words).out.find("earlier run"), std::string::npos);
+  EXPECT_TRUE(says(press(library, 0, "again").out, "earlier run"));
   build("-O1 -g");
-  words[2] = "other";
-  EXPECT_EQ(run_program(place_.path(), words).out.find("earlier run"), std::string::npos);
+  EXPECT_TRUE(omits(press(library, 0, "other").out, "earlier run"));
 }
 
 TEST_F(OwnController, ThatCannotBeUsedIsBadInputOrAFailure) {
-  EXPECT_EQ(run_program(place_.path(), press({"controller.type=library"})).code, 2);
-  EXPECT_EQ(run_program(place_.path(),
-                        press({"controller.type=socket", "controller.address=tcp:0.0.0.0:1"}))
-                .code,
-            2);
-  write_text(place_ / "text.so", "not an object");
-  const ProgramResult result =
-      run_program(place_.path(), press({"controller.type=library", "controller.library=text.so"}));
-  EXPECT_EQ(result.code, 3) << result.err;
-  EXPECT_NE(result.err.find("text.so cannot be loaded"), std::string::npos) << result.err;
+  press({"controller.type=library"}, 2);
+  press({"controller.type=socket", "controller.address=tcp:0.0.0.0:1"}, 2);
+  place_.put("text.so", "not an object");
+  EXPECT_TRUE(says(press({"controller.type=library", "controller.library=text.so"}, 3).err,
+                   "text.so cannot be loaded"));
 }
 
 TEST_F(OwnController, KilledEndsTheRunWithTheDataKept) {
-  Program program(place_.path(), over_socket("1 s"));
-  wait_for_socket();
+  Program program = listening("1 s");
   Child client({FINGERTIP_CLIENT, address()});
   std::this_thread::sleep_for(std::chrono::milliseconds(30));
   client.send(SIGKILL);
@@ -185,8 +151,7 @@ TEST_F(OwnController, KilledEndsTheRunWithTheDataKept) {
 }
 
 TEST_F(OwnController, StoppedEndsTheRunWithTheDataKept) {
-  Program program(place_.path(), over_socket("1 s"));
-  wait_for_socket();
+  Program program = listening("1 s");
   RawClient client(path());
   answer(client, 20);
   client.line();  // and no answer to this one
@@ -204,8 +169,7 @@ TEST_F(OwnController, ThatSendsNonsenseEndsTheRunWithTheDataKept) {
   for (const auto& [bytes, part] : cases) {
     fs::remove_all(place_ / "run");
     fs::remove(place_ / "stderr");
-    Program program(place_.path(), over_socket());
-    wait_for_socket();
+    Program program = listening();
     RawClient client(path());
     answer(client, 7);
     client.line();
@@ -215,8 +179,7 @@ TEST_F(OwnController, ThatSendsNonsenseEndsTheRunWithTheDataKept) {
 }
 
 TEST_F(OwnController, OfAnotherVersionIsRefused) {
-  Program program(place_.path(), over_socket());
-  wait_for_socket();
+  Program program = listening();
   RawClient client(path());
   client.line();
   client.send(R"({"protocol":"fingertip-control","version":2})");
@@ -224,8 +187,7 @@ TEST_F(OwnController, OfAnotherVersionIsRefused) {
 }
 
 TEST_F(OwnController, ThatComesBackFinishesTheRun) {
-  Program program(place_.path(), over_socket());
-  wait_for_socket();
+  Program program = listening();
   {
     RawClient client(path());
     answer(client, 5);
@@ -233,13 +195,12 @@ TEST_F(OwnController, ThatComesBackFinishesTheRun) {
   Child client({FINGERTIP_CLIENT, address()});
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.err.find("the controller is back"), std::string::npos) << result.err;
+  EXPECT_TRUE(says(result.err, "the controller is back"));
   EXPECT_EQ(client.wait(), 0);
 }
 
 TEST_F(OwnController, ThatNeverComesCanBeInterrupted) {
-  Program program(place_.path(), over_socket());
-  wait_for_socket();
+  Program program = listening();
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   program.send(SIGINT);
   EXPECT_EQ(program.wait().code, 130);

@@ -2,16 +2,13 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <chrono>
 #include <regex>
-#include <thread>
 
-#include "tests/studies/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/workplace.h"
 
 namespace {
 
-const std::string coarse = "lattice.spacing=tip_radius/4";
+const Words coarse = {"lattice.spacing=tip_radius/4"};
 
 std::string quoted_address(const std::string& out) {
   const std::regex address(R"(http://127\.0\.0\.1:[1-9]\d*/\?token=[0-9a-f]{32}\n)");
@@ -22,19 +19,16 @@ std::string quoted_address(const std::string& out) {
 }  // namespace
 
 TEST(LiveVerb, PrintsItsAddressAndEndsByItself) {
-  const TemporaryFolder folder;
-  const ProgramResult result =
-      run_program(folder.path(), {"live", "--set", coarse, "--exit-after", "0.3"});
-  EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(quoted_address(result.out), "") << result.out;
+  const Workplace folder;
+  const std::string told = folder.run("live --exit-after 0.3", coarse).out;
+  EXPECT_NE(quoted_address(told), "") << told;
   EXPECT_TRUE(made_in(folder.path()).empty());
 }
 
 TEST(LiveVerb, EndsCleanlyWhenInterrupted) {
-  const TemporaryFolder folder;
-  Program program(folder.path(),
-                  {"live", "--set", coarse, "--rate", "0", "--running", "--exit-after", "60"});
-  std::this_thread::sleep_for(std::chrono::seconds(2));
+  const Workplace folder;
+  Program program = folder.start("live --rate 0 --running --exit-after 60", coarse);
+  EXPECT_TRUE(folder.hears("token="));
   program.send(SIGINT);
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.code, 0) << result.err;
@@ -42,55 +36,35 @@ TEST(LiveVerb, EndsCleanlyWhenInterrupted) {
 }
 
 TEST(LiveVerb, InRealTimeItKeepsWhatItChose) {
-  const TemporaryFolder folder;
-  const ProgramResult result = run_program(
-      folder.path(), {"live", "--real-time", "--set", coarse, "--running", "--exit-after", "1.5"});
-  if (result.code == 3 && result.err.find("not even the coarsest") != std::string::npos)
+  const Workplace folder;
+  const ProgramResult result =
+      folder.run("live --real-time --running --exit-after 1.5", coarse, any_code);
+  if (result.code == 3 && says(result.err, "not even the coarsest"))
     GTEST_SKIP() << "this machine keeps up with no lattice";
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(quoted_address(result.out), "") << result.out;
-  EXPECT_NE(result.err.find("--real-time: spacing"), std::string::npos) << result.err;
-  EXPECT_NE(result.out.find("force error"), std::string::npos) << result.out;
-  const auto runs = std::filesystem::directory_iterator(folder / "runs");
-  const std::filesystem::path run = runs->path();
-  const std::string kept = read_text(run / "real_time.json");
-  EXPECT_NE(kept.find("\"slowest_factor\""), std::string::npos) << kept;
-  const ProgramResult again = run_program(
-      folder.path(), {"live", "--config", run / "parameters.toml", "--exit-after", "0.1"});
-  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(says(result.err, "--real-time: spacing"));
+  EXPECT_TRUE(says(result.out, "force error"));
+  const std::filesystem::path run = std::filesystem::directory_iterator(folder / "runs")->path();
+  EXPECT_TRUE(says(read_text(run / "real_time.json"), "\"slowest_factor\""));
+  folder.run("live --exit-after 0.1 --config " + (run / "parameters.toml").string());
 }
 
 TEST(LiveVerb, SaysInWhatTheReferenceDiffers) {
-  const TemporaryFolder folder;
-  const std::vector<std::string> press = {"press",
-                                          "--set",
-                                          coarse,
-                                          "--set",
-                                          "press.mode=static",
-                                          "--set",
-                                          "press.samples=[\"0.05 cm\"]",
-                                          "--set"};
-  auto stick = press, free = press;
-  stick.insert(stick.end(), {"press.contact=stick", "--out", "stick"});
-  free.insert(free.end(), {"press.contact=frictionless", "--out", "free"});
-  ASSERT_EQ(run_program(folder.path(), stick).code, 0);
-  ASSERT_EQ(run_program(folder.path(), free).code, 0);
-  const auto live = [&](const char* reference) {
-    return run_program(folder.path(),
-                       {"live", "--set", coarse, "--exit-after", "0.1", "--reference", reference})
-        .err;
+  const Workplace folder;
+  const auto live = [&](const std::string& contact) {
+    folder.run("press --out " + contact,
+               coarse + Words{"press.mode=static", "press.samples=[\"0.05 cm\"]",
+                              "press.contact=" + contact});
+    return folder.run("live --exit-after 0.1 --reference " + contact, coarse).err;
   };
   EXPECT_EQ(live("stick"), "");
-  EXPECT_NE(live("free").find("contact: stick, not frictionless"), std::string::npos);
+  EXPECT_TRUE(says(live("frictionless"), "contact: stick, not frictionless"));
 }
 
 TEST(LiveVerb, RefusesWhatItCannotUse) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(run_program(folder.path(), {"live", "--reference", "nothing"}).code, 2);
-  EXPECT_EQ(run_program(folder.path(), {"live", "--port", "99999"}).code, 2);
-  EXPECT_EQ(run_program(folder.path(), {"live", "--rate", "2"}).code, 2);
-  const ProgramResult empty =
-      run_program(folder.path(), {"live", "--set", coarse, "--reference", folder.path().string()});
-  EXPECT_EQ(empty.code, 2);
-  EXPECT_NE(empty.err.find("response.csv"), std::string::npos) << empty.err;
+  const Workplace folder;
+  for (const char* command : {"live --reference nothing", "live --port 99999", "live --rate 2"})
+    folder.run(command, {}, 2);
+  folder.expect_refused("live --reference " + folder.path().string(), coarse, "response.csv");
 }
