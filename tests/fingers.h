@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "meshes/shape/geometry.h"
 #include "meshes/shape/solid.h"
 
 namespace fingers {

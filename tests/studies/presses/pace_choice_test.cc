@@ -9,7 +9,7 @@
 #include "lattice/dynamics/thread_choice.h"
 #include "lattice/press/press_deviation.h"
 #include "studies/presses/pace_trial.h"
-#include "studies/presses/press_setup.h"
+#include "tests/studies/configured.h"
 
 using namespace fingertip;
 using namespace fingertip::studies;
@@ -38,10 +38,6 @@ struct Machine {
   }
   MeasuredPace measured(const PaceCandidate& press) const { return {press, factor(press)}; }
 };
-
-LoadedConfig loaded(std::vector<std::string> sets) {
-  return load_config({{}, std::move(sets), {}});
-}
 
 }  // namespace
 
@@ -144,7 +140,7 @@ TEST(PaceSearch, AMachineThatIsTooSlowIsTriedOnce) {
 }
 
 TEST(PaceCandidates, GoFromTheCoarsestLatticeToTheOneThatWasAsked) {
-  const LoadedConfig asked = loaded({"lattice.spacing=tip_radius/15.5"});
+  const LoadedConfig asked = config_of({"lattice.spacing=tip_radius/15.5"});
   const auto setup = press_setup(asked);
   const auto found = pace_candidates(setup, true, 2);
   EXPECT_EQ(found.front().spacing, setup.geometry.coarsest_spacing());
@@ -156,7 +152,7 @@ TEST(PaceCandidates, GoFromTheCoarsestLatticeToTheOneThatWasAsked) {
 }
 
 TEST(PaceCandidates, StepsKeepTheForceAndAreAsLongAsThat) {
-  const LoadedConfig asked = loaded({"lattice.spacing=tip_radius/24"});
+  const LoadedConfig asked = config_of({"lattice.spacing=tip_radius/24"});
   auto setup = press_setup(asked);
   bool scaled = false;
   for (const PaceCandidate& press : pace_candidates(setup, true, 2)) {
@@ -183,24 +179,24 @@ TEST(PaceCandidates, StepsKeepTheForceAndAreAsLongAsThat) {
 }
 
 TEST(PaceCandidates, WhatIsGivenStays) {
-  const auto given = press_setup(loaded({"run.integrator=mass-scaled", "run.time_step=0.5 ms"}));
+  const auto given = press_setup(config_of({"run.integrator=mass-scaled", "run.time_step=0.5 ms"}));
   for (const PaceCandidate& press : pace_candidates(given, false, 2)) {
     EXPECT_EQ(press.integrator, Integrator::mass_scaled);
     EXPECT_NEAR(press.step, 5e-4, 1e-15);
   }
-  const auto plain = press_setup(loaded({"run.threads=3"}));
+  const auto plain = press_setup(config_of({"run.threads=3"}));
   for (const PaceCandidate& press : pace_candidates(plain, false, 8)) {
     EXPECT_EQ(press.integrator, Integrator::symplectic_euler);
     EXPECT_EQ(press.threads, 3);
   }
   // Springs alone cannot be scaled.
   for (const PaceCandidate& press :
-       pace_candidates(press_setup(loaded({"lattice.model=published"})), true, 2))
+       pace_candidates(press_setup(config_of({"lattice.model=published"})), true, 2))
     EXPECT_EQ(press.integrator, Integrator::symplectic_euler);
 }
 
 TEST(PaceCandidates, TheirSettingsMakeTheirPress) {
-  const LoadedConfig asked = with_any_integrator(loaded({"press.contact=stick"}));
+  const LoadedConfig asked = with_any_integrator(config_of({"press.contact=stick"}));
   const auto setup = press_setup(asked);
   for (const PaceCandidate& press : pace_candidates(setup, true, 1)) {
     const auto made = press_setup(with_sets(asked, settings_of(press, asked)));

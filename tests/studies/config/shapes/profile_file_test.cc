@@ -6,7 +6,7 @@
 #include <string>
 
 #include "meshes/base/errors.h"
-#include "studies/config/loader.h"
+#include "tests/studies/loaded.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -32,18 +32,11 @@ std::string refusal_of(const std::string& profile) {
   write_text(
       folder / "case.toml",
       "[geometry]\nshape = \"profile\"\nprofile = \"finger.csv\"\n[press]\ndepth = \"1 mm\"\n");
-  try {
-    load_config({folder / "case.toml", {}, {}});
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return {};
+  return config_refusal([&] { config_in(folder / "case.toml"); });
 }
 
 void expect_refused(const std::string& profile, const std::vector<std::string>& parts) {
-  const std::string refusal = refusal_of(profile);
-  for (const std::string& part : parts)
-    EXPECT_NE(refusal.find(part), std::string::npos) << part << "\nnot in: " << refusal;
+  EXPECT_TRUE(says(refusal_of(profile), parts));
 }
 
 TEST(ProfileFile, TakesAnyUnitOfLength) {
@@ -104,7 +97,7 @@ TEST(ProfileFile, MakesTheFingerOfAConfiguration) {
   write_text(folder / "finger.csv", solid_finger);
   write_text(folder / "case.toml",
              "[geometry]\nshape = \"profile\"\nprofile = \"finger.csv\"\nendpoint = \"-1 mm\"\n");
-  const Config config = load_config({folder / "case.toml", {}, {}}).config;
+  const Config config = config_in(folder / "case.toml").config;
   EXPECT_NEAR(config.press.geometry.tip_radius, 0.0125, 1e-15);
   EXPECT_NEAR(config.press.geometry.rod_endpoint().z(), -0.001, 1e-15);
   EXPECT_NEAR(config.press.lattice.spacing, 0.0125 / 12, 1e-15);

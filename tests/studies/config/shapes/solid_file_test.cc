@@ -13,9 +13,9 @@
 #include "meshes/base/errors.h"
 #include "meshes/shape/revolved_surface.h"
 #include "meshes/shape/stl_file.h"
-#include "studies/config/loader.h"
 #include "tests/fingers.h"
 #include "tests/stl_text.h"
+#include "tests/studies/loaded.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -41,17 +41,11 @@ std::string refusal_of(const std::string& stl, const std::string& toml = setting
   const TemporaryFolder folder;
   write_text(folder / "finger.stl", stl);
   write_text(folder / "case.toml", toml);
-  try {
-    load_config({folder / "case.toml", {}, {}});
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return {};
+  return config_refusal([&] { config_in(folder / "case.toml"); });
 }
 
 void expect_refused(const std::string& refusal, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(refusal.find(part), std::string::npos) << part << "\nnot in: " << refusal;
+  EXPECT_TRUE(says(refusal, parts));
 }
 
 TEST(SolidFile, ReadsBothFormsOfStl) {
@@ -72,15 +66,15 @@ TEST(SolidFile, MakesTheFingerOfAConfiguration) {
   const TemporaryFolder folder;
   write_text(folder / "finger.stl", stl_text(finger()));
   write_text(folder / "case.toml", with(settings, "shape", "endpoint = \"-2 mm\"\nshape"));
-  const LoadedConfig loaded = load_config({folder / "case.toml", {}, {}});
-  const meshes::Geometry& geometry = loaded.config.press.geometry;
+  const LoadedConfig finger_case = config_in(folder / "case.toml");
+  const meshes::Geometry& geometry = finger_case.config.press.geometry;
   ASSERT_TRUE(geometry.solid);
   EXPECT_EQ(geometry.shape_name(), "solid");
   EXPECT_NEAR(geometry.tip_volume(), 2.4e-6, 1e-15);
   EXPECT_NEAR(geometry.tip_radius, std::hypot(0.006, 0.007), 1e-12);
   EXPECT_NEAR(geometry.thickness(), 0.019, 1e-12);
   EXPECT_NEAR(geometry.rod_endpoint().z(), -0.002, 1e-15);
-  EXPECT_NEAR(loaded.config.press.lattice.spacing, geometry.tip_radius / 12, 1e-12);
+  EXPECT_NEAR(finger_case.config.press.lattice.spacing, geometry.tip_radius / 12, 1e-12);
   // The resolved configuration is the same finger from anywhere.
   const auto again =
       load_config({{},
@@ -90,7 +84,7 @@ TEST(SolidFile, MakesTheFingerOfAConfiguration) {
   EXPECT_EQ(again.config.press.geometry.solid->content(), geometry.solid->content());
   // Another unit of the same numbers.
   const auto centimetres =
-      load_config({folder / "case.toml", {"geometry.unit=cm", "geometry.bond=z < 1 cm"}, {}});
+      config_in(folder / "case.toml", {"geometry.unit=cm", "geometry.bond=z < 1 cm"});
   EXPECT_NEAR(centimetres.config.press.geometry.tip_volume() / geometry.tip_volume(), 1000.0, 1e-6);
 }
 
@@ -131,12 +125,12 @@ TEST(SolidFile, TurnsAndShiftsTheFinger) {
   EXPECT_NEAR(touched.max().z(), 0.007, 1e-9);
   // As keys.
   write_text(folder / "case.toml", settings);
-  const auto loaded = [&](std::vector<std::string> sets) {
+  const auto box_with = [&](std::vector<std::string> sets) {
     sets.emplace_back("geometry.bond=z < -4 mm");
-    return box_of(*load_config({folder / "case.toml", sets, {}}).config.press.geometry.solid);
+    return box_of(*config_in(folder / "case.toml", sets).config.press.geometry.solid);
   };
-  EXPECT_NEAR(loaded({"geometry.up=+y", "geometry.origin=touch"}).center().y(), 0.0, 1e-9);
-  EXPECT_NEAR(loaded({"geometry.origin=[\"1 mm\", \"0 mm\", \"1 cm\"]"}).max().z(), 0.01, 1e-9);
+  EXPECT_NEAR(box_with({"geometry.up=+y", "geometry.origin=touch"}).center().y(), 0.0, 1e-9);
+  EXPECT_NEAR(box_with({"geometry.origin=[\"1 mm\", \"0 mm\", \"1 cm\"]"}).max().z(), 0.01, 1e-9);
   const auto refused = [&](const std::string& geometry) {
     return refusal_of(stl_text(finger()), with(settings, "shape", geometry + "\nshape"));
   };

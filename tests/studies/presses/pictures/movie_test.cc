@@ -10,6 +10,7 @@
 
 #include "lattice/press/press.h"
 #include "tests/coarse_press.h"
+#include "tests/expectations.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -101,9 +102,7 @@ TEST(Movie, FramesHoldTipRodAndPlaneAsVtkReadsThem) {
                   }});
   ASSERT_EQ(movie.frames(), 5u);
   const std::string series = read_text(folder / "movie/movie.pvd");
-  EXPECT_NE(series.find("<DataSet timestep=\"0\" part=\"0\" file=\"frame_0000.vtu\"/>"),
-            std::string::npos)
-      << series;
+  EXPECT_TRUE(says(series, "<DataSet timestep=\"0\" part=\"0\" file=\"frame_0000.vtu\"/>"));
   const std::string last = read_text(folder / "movie/frame_0004.vtu");
   EXPECT_NEAR(std::stod(between(between(last, "\"TimeValue\"", "</"), ">", " <")),
               outcome.simulated_time, 1e-3);
