@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <exception>
 #include <string>
 #include <vector>
+
+#include "meshes/base/errors.h"
 
 /// One or several parts of a text.
 struct Parts : std::vector<std::string> {
@@ -32,7 +33,7 @@ inline testing::AssertionResult omits(const std::string& text, const Parts& part
 }
 
 /// What an `Error` says that the action throws; empty where it throws none.
-template <typename Error = std::exception>
+template <typename Error = fingertip::meshes::InvalidInput>
 std::string refusal(const auto& action) {
   try {
     action();
@@ -43,7 +44,11 @@ std::string refusal(const auto& action) {
 }
 
 /// Whether the action throws an `Error` that says every one of the parts.
-template <typename Error = std::exception>
+template <typename Error = fingertip::meshes::InvalidInput>
 testing::AssertionResult refuses(const auto& action, const Parts& parts) {
   return says(refusal<Error>(action), parts);
 }
+
+/// As EXPECT_THROW, and that the error says so.
+#define EXPECT_THROW_SAYING(statement, Error, parts) \
+  EXPECT_TRUE(::refuses<Error>([&] { statement; }, parts))

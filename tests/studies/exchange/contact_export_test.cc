@@ -6,7 +6,6 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #ifdef FINGERTIP_SDFORMAT
 #include <sdf/Collision.hh>
@@ -17,8 +16,7 @@
 #include <sdf/Sphere.hh>
 #endif
 
-#include "tests/studies/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/workplace.h"
 
 using nlohmann::json;
 
@@ -26,18 +24,14 @@ namespace {
 
 namespace tree = boost::property_tree;
 
-/// A quick continuum: small strain, wide bars; and few tetrahedra.
-std::vector<std::string> contact_export(const std::string& format,
-                                        const std::vector<std::string>& more) {
-  std::vector<std::string> words = {"export", "--format", format, "--out", "run"};
-  for (const char* set : {"reference.strain=linear", "reference.tolerance=0.02", "press.depth=2 mm",
-                          "exchange.edge=8 mm"})
-    words.insert(words.end(), {"--set", set});
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
+/// Into the folder "run", of a quick continuum: small strain, wide bars; and few tetrahedra.
+std::string to(const std::string& format) {
+  return "export --out run --format " + format;
 }
-
-const std::vector<std::string> slips = {"--set", "press.contact=frictionless"};
+const Words quick = {"reference.strain=linear", "reference.tolerance=0.02", "press.depth=2 mm",
+                     "exchange.edge=8 mm"};
+const Words slips = quick + Words{"press.contact=frictionless"};
+const Words sticks = quick + Words{"press.contact=stick"};
 
 /// The file as a tree; throws where it is not well-formed.
 tree::ptree parsed(const std::filesystem::path& file) {
@@ -60,12 +54,10 @@ const json& model_of(const json& obstacle, const std::string& name) {
 }  // namespace
 
 TEST(ContactExport, EveryFormatIsWrittenWithTheForceErrorToExpect) {
-  const TemporaryFolder folder;
-  const ProgramResult made = run_program(folder.path(), contact_export("all", slips));
-  ASSERT_EQ(made.code, 0) << made.err;
-  for (const char* told : {"pressure-law: table", "mujoco: flex", "drake: hydroelastic ball"})
-    EXPECT_NE(made.out.find(told), std::string::npos) << made.out;
-  const json transfer = json::parse(read_text(folder / "run/transfer.json"));
+  const Workplace folder;
+  EXPECT_TRUE(says(folder.run(to("all"), slips).out,
+                   {"pressure-law: table", "mujoco: flex", "drake: hydroelastic ball"}));
+  const json transfer = folder.json("run/transfer.json");
   ASSERT_EQ(transfer["obstacles"].size(), 3U);
   EXPECT_TRUE(transfer["lost"].empty());
   const json& plane = transfer["obstacles"][0];
@@ -91,19 +83,18 @@ TEST(ContactExport, EveryFormatIsWrittenWithTheForceErrorToExpect) {
   EXPECT_GT(model_of(ball, "mujoco: rigid geom")["error"][0].get<double>(), 0.3);
   EXPECT_TRUE(model_of(ball, "mujoco: flex")["error"][0].is_null());
 
-  const json law = json::parse(read_text(folder / "run/pressure-law/pressure_law.json"));
+  const json law = folder.json("run/pressure-law/pressure_law.json");
   EXPECT_GT(law["exponent"].get<double>(), 0.5);  // Hertz' on a half space
   EXPECT_NEAR(law["hydroelastic_modulus"].get<double>() / law["line"].get<double>(), 0.01, 1e-9);
-  EXPECT_TRUE(read_text(folder / "run/pressure-law/pressure_table.csv")
-                  .starts_with("penetration [m],pressure"));
-  for (const char* format : {"", "pressure-law/", "mujoco/", "drake/", "sofa/", "vtk/"})
-    EXPECT_NE(read_text(folder / "run" / format / "README.md").find("Force error to expect"),
-              std::string::npos);
+  EXPECT_TRUE(
+      folder.text("run/pressure-law/pressure_table.csv").starts_with("penetration [m],pressure"));
+  for (const std::string format : {"", "pressure-law/", "mujoco/", "drake/", "sofa/", "vtk/"})
+    EXPECT_TRUE(says(folder.text("run/" + format + "README.md"), "Force error to expect"));
 }
 
 TEST(ContactExport, SoftBodiesAreTheSameForEveryProgram) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(run_program(folder.path(), contact_export("all", slips)).code, 0);
+  const Workplace folder;
+  folder.run(to("all"), slips);
   const tree::ptree scene = parsed(folder / "run/sofa/finger.scn").get_child("Node.Node");
   const tree::ptree flex =
       parsed(folder / "run/mujoco/finger_flex.xml").get_child("mujoco.worldbody.flexcomp");
@@ -144,20 +135,16 @@ TEST(ContactExport, SoftBodiesAreTheSameForEveryProgram) {
 /// Its forces under balls are not foretold, so the continuum is not pressed on them, either; a
 /// tilt is refused in words that fit.
 TEST(ContactExport, AMeshNeedsOnePress) {
-  const TemporaryFolder folder;
-  std::vector<std::string> tilted = slips;
-  tilted.insert(tilted.end(), {"--set", "press.tilt=0.1 rad"});
-  const ProgramResult refused = run_program(folder.path(), contact_export("vtk", tilted));
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("fitted to a press straight down; choose 0"), std::string::npos)
-      << refused.err;
-  EXPECT_EQ(refused.err.find("pressure"), std::string::npos) << refused.err;
-  ASSERT_EQ(run_program(folder.path(), contact_export("vtk", slips)).code, 0);
-  const json transfer = json::parse(read_text(folder / "run/transfer.json"));
+  const Workplace folder;
+  const std::string told = folder.run(to("vtk"), slips + Words{"press.tilt=0.1 rad"}, 2).err;
+  EXPECT_TRUE(says(told, "fitted to a press straight down; choose 0"));
+  EXPECT_TRUE(omits(told, "pressure"));
+  folder.run(to("vtk"), slips);
+  const json transfer = folder.json("run/transfer.json");
   ASSERT_EQ(transfer["obstacles"].size(), 1U);
   EXPECT_LT(std::abs(model_of(transfer["obstacles"][0], "tetrahedra")["error"][2].get<double>()),
             0.2);
-  EXPECT_FALSE(std::filesystem::exists(folder / "run/continuum/2"));
+  EXPECT_FALSE(folder.has("run/continuum/2"));
 }
 
 /// At the servo's target; and its README tells which version it needs.
@@ -165,16 +152,14 @@ TEST(ContactExport, MuJoCoPressesAsForetold) {
   const std::string library = FINGERTIP_MUJOCO;
   if (!std::filesystem::exists(library))
     GTEST_SKIP() << "MuJoCo is not installed: ./fingertip test installs it";
-  const TemporaryFolder folder;
-  const ProgramResult made = run_program(folder.path(), contact_export("mujoco", slips));
-  ASSERT_EQ(made.code, 0) << made.err;
+  const Workplace folder;
+  const ProgramResult made = folder.run(to("mujoco"), slips);
   const std::string press =
       "node '" FINGERTIP_SOURCES "/tests/studies/exchange/press_in_mujoco.mjs' '" + library +
       "' '" + (folder / "run").string() + "' > '" + (folder / "forces.json").string() + "'";
   ASSERT_EQ(std::system(press.c_str()), 0);
-  const json forces = json::parse(read_text(folder / "forces.json"));
-  const json models =
-      json::parse(read_text(folder / "run/transfer.json"))["obstacles"][0]["models"];
+  const json forces = folder.json("forces.json");
+  const json models = folder.json("run/transfer.json")["obstacles"][0]["models"];
   int compared = 0;
   for (const auto& [file, model] : {std::pair("finger_rigid.xml", 0), {"finger_flex.xml", 1}})
     for (std::size_t i = 0; i < 5; ++i) {
@@ -186,16 +171,16 @@ TEST(ContactExport, MuJoCoPressesAsForetold) {
           << file << ", depth " << i;
     }
   EXPECT_GE(compared, 8);
-  for (const char* file : {"README.md", "finger_flex.xml"})
-    EXPECT_NE(read_text(folder / "run" / file).find("MuJoCo 3.13"), std::string::npos) << file;
+  for (const char* file : {"run/README.md", "run/finger_flex.xml"})
+    EXPECT_TRUE(says(folder.text(file), "MuJoCo 3.13")) << file;
   // So few tetrahedra meet the continuum at one depth.
-  EXPECT_NE(made.out.find("at 0.5 mm alone"), std::string::npos) << made.out;
+  EXPECT_TRUE(says(made.out, "at 0.5 mm alone"));
 }
 
 TEST(ContactExport, LibsdformatAcceptsDrakesFile) {
 #ifdef FINGERTIP_SDFORMAT
-  const TemporaryFolder folder;
-  ASSERT_EQ(run_program(folder.path(), contact_export("drake", slips)).code, 0);
+  const Workplace folder;
+  folder.run(to("drake"), slips);
   sdf::Root root;
   const sdf::Errors errors = root.Load((folder / "run/finger.sdf").string());
   for (const sdf::Error& error : errors) ADD_FAILURE() << error.Message();
@@ -211,57 +196,36 @@ TEST(ContactExport, LibsdformatAcceptsDrakesFile) {
 
 /// The default press sticks; who says nothing of the contact must not be refused for it.
 TEST(ContactExport, AContactNotGivenIsFrictionless) {
-  const TemporaryFolder folder;
-  const ProgramResult made = run_program(folder.path(), contact_export("pressure-law", {}));
-  ASSERT_EQ(made.code, 0) << made.err;
-  EXPECT_NE(made.err.find("note: press.contact is not given: frictionless is taken"),
-            std::string::npos)
-      << made.err;
-  const json taken = json::parse(read_text(folder / "run/transfer.json"));
+  const Workplace folder;
+  EXPECT_TRUE(says(folder.run(to("pressure-law"), quick).err,
+                   "note: press.contact is not given: frictionless is taken"));
+  const json taken = folder.json("run/transfer.json");
   EXPECT_TRUE(taken["lost"].empty());
-  std::vector<std::string> given = contact_export("pressure-law", slips);
-  given[4] = "given";
-  ASSERT_EQ(run_program(folder.path(), given).code, 0);
-  EXPECT_EQ(taken, json::parse(read_text(folder / "given/transfer.json")));
+  folder.run("export --out given --format pressure-law", slips);
+  EXPECT_EQ(taken, folder.json("given/transfer.json"));
 }
 
 TEST(ContactExport, WhatAFormatCannotSayIsRefusedUnlessAskedFor) {
-  const TemporaryFolder folder;
-  const std::vector<std::string> stick = {"--set", "press.contact=stick"};
-  const ProgramResult sticks = run_program(folder.path(), contact_export("pressure-law", stick));
-  EXPECT_EQ(sticks.code, 2);
-  EXPECT_NE(sticks.err.find("add --set press.contact=frictionless, or --lossy"), std::string::npos)
-      << sticks.err;
-  const ProgramResult tilted = run_program(
-      folder.path(), contact_export("drake", {"--lossy", "--set", "press.tilt=0.1 rad"}));
-  EXPECT_EQ(tilted.code, 2);
-  EXPECT_NE(tilted.err.find("press.tilt"), std::string::npos) << tilted.err;
-  EXPECT_TRUE(made_in(folder.path()).empty());
-  std::vector<std::string> lossy = contact_export("pressure-law", stick);
-  lossy.push_back("--lossy");
-  ASSERT_EQ(run_program(folder.path(), lossy).code, 0);
-  const json transfer = json::parse(read_text(folder / "run/transfer.json"));
-  ASSERT_EQ(transfer["lost"].size(), 1U);
-  EXPECT_NE(transfer["lost"][0].get<std::string>().find("press.contact"), std::string::npos);
+  const Workplace folder;
+  folder.expect_refused(to("pressure-law"), sticks,
+                        "add --set press.contact=frictionless, or --lossy");
+  folder.expect_refused(to("drake") + " --lossy", quick + Words{"press.tilt=0.1 rad"},
+                        "press.tilt");
+  folder.run(to("pressure-law") + " --lossy", sticks);
+  const json lost = folder.json("run/transfer.json")["lost"];
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_TRUE(says(lost[0], "press.contact"));
 }
 
 TEST(ContactExport, SoftBodiesUnderOtherThanPlanesAreLeftOut) {
-  const TemporaryFolder folder;
-  std::vector<std::string> ball = slips;
-  ball.insert(ball.end(), {"--set", "obstacle.shape=sphere", "--set", "obstacle.radius=8 mm"});
-  const ProgramResult alone = run_program(folder.path(), contact_export("sofa", ball));
-  EXPECT_EQ(alone.code, 2);
-  EXPECT_NE(alone.err.find("obstacle.shape"), std::string::npos) << alone.err;
-  std::vector<std::string> edge = slips;
-  edge.insert(edge.end(), {"--set", "obstacle.shape=edge", "--set", "obstacle.radius=8 mm"});
-  const ProgramResult mujoco = run_program(folder.path(), contact_export("mujoco", edge));
-  EXPECT_EQ(mujoco.code, 2);
-  EXPECT_NE(mujoco.err.find("cylinder of the same radius"), std::string::npos) << mujoco.err;
-  EXPECT_FALSE(std::filesystem::exists(folder / "run")) << "before the continuum is pressed";
-  const ProgramResult all = run_program(folder.path(), contact_export("all", ball));
-  ASSERT_EQ(all.code, 0) << all.err;
-  EXPECT_NE(all.out.find("sofa: "), std::string::npos) << all.out;
-  EXPECT_FALSE(std::filesystem::exists(folder / "run/sofa"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "run/mujoco/finger_rigid.xml"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "run/mujoco/finger_flex.xml"));
+  const Workplace folder;
+  const Words ball = slips + Words{"obstacle.shape=sphere", "obstacle.radius=8 mm"},
+              edge = slips + Words{"obstacle.shape=edge", "obstacle.radius=8 mm"};
+  folder.expect_refused(to("sofa"), ball, "obstacle.shape");
+  // Before the continuum is pressed.
+  folder.expect_refused(to("mujoco"), edge, "cylinder of the same radius");
+  EXPECT_TRUE(says(folder.run(to("all"), ball).out, "sofa: "));
+  EXPECT_FALSE(folder.has("run/sofa"));
+  EXPECT_TRUE(folder.has("run/mujoco/finger_rigid.xml"));
+  EXPECT_FALSE(folder.has("run/mujoco/finger_flex.xml"));
 }
