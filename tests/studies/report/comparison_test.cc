@@ -6,6 +6,7 @@
 
 #include "meshes/base/errors.h"
 #include "studies/report/report.h"
+#include "tests/expectations.h"
 #include "tests/studies/report/page_check.h"
 #include "tests/studies/report/synthetic_run.h"
 
@@ -54,7 +55,7 @@ TEST(Comparison, GivesDifferencesRelativeToTheFirstRun) {
   EXPECT_TRUE(report_testing::structure_faults(html).empty())
       << report_testing::structure_faults(html).front();
   EXPECT_TRUE(report_testing::outside_references(html).empty());
-  EXPECT_NE(report_testing::visible_text(html).find("stiff differs by +25.0 %"), std::string::npos);
+  EXPECT_TRUE(says(report_testing::visible_text(html), "stiff differs by +25.0 %"));
 }
 
 /// A press of given samples [m, N] and, unless empty, inputs of its job.
@@ -99,8 +100,8 @@ TEST(Comparison, APressOfARejectedFitSaysSoFirst) {
   const std::string html = read_text(folder.path() / "out" / "comparison.html");
   EXPECT_LT(html.find("<div class=\"rejected\""), html.find("<p class=\"answer\""));
   const std::string text = report_testing::visible_text(html);
-  EXPECT_NE(text.find("foam: material.toml: the fit failed its own tests"), std::string::npos);
-  EXPECT_EQ(text.find("deep"), std::string::npos);
+  EXPECT_TRUE(says(text, "foam: material.toml: the fit failed its own tests"));
+  EXPECT_TRUE(omits(text, "deep"));
 }
 
 TEST(Comparison, TellsOfShapesWhatHoldsForBoth) {
@@ -147,7 +148,7 @@ TEST(Comparison, TellsNothingOutsideTheSamplesOfARun) {
     EXPECT_NEAR(std::stod(rows[i][3]), 0.1, 1e-12);
     EXPECT_EQ(rows[i][4], "0");
   }
-  EXPECT_EQ(result.text.find("interpolated"), std::string::npos) << result.text;
+  EXPECT_TRUE(omits(result.text, "interpolated"));
 }
 
 TEST(Comparison, InterpolatesInsideTheSamplesWhereNoneAreCommonAndSaysSo) {
@@ -162,10 +163,9 @@ TEST(Comparison, InterpolatesInsideTheSamplesWhereNoneAreCommonAndSaysSo) {
     EXPECT_NEAR(std::stod(rows[i][3]), 0.1, 1e-6);
     EXPECT_EQ(rows[i][4], "1");
   }
-  EXPECT_NE(result.text.find("~: interpolated between samples of b"), std::string::npos);
-  EXPECT_NE(report_testing::visible_text(read_text(folder / "out/comparison.html"))
-                .find("interpolated between samples of b"),
-            std::string::npos);
+  EXPECT_TRUE(says(result.text, "~: interpolated between samples of b"));
+  EXPECT_TRUE(says(report_testing::visible_text(read_text(folder / "out/comparison.html")),
+                   "interpolated between samples of b"));
 }
 
 /// F = d² by three samples: halfway between the last two a chord would lie 1/9 too high.
@@ -180,11 +180,10 @@ TEST(Comparison, FewSamplesAreDrawnAsTheCurveThatForcesAreComparedBy) {
   const auto line = html.find("id=\"comparison_force_plot_1\"");
   ASSERT_NE(line, std::string::npos);
   const std::string first = html.substr(line, html.find("comparison_force_plot_2") - line);
-  EXPECT_EQ(first.find("<use"), std::string::npos);
+  EXPECT_TRUE(omits(first, "<use"));
   EXPECT_GT(std::ranges::count(first, ','), 190);
   // Its samples are the next item, which buttons switch with it.
-  EXPECT_NE(html.find("[\"comparison_force_plot_1\",\"comparison_force_plot_2\"]"),
-            std::string::npos);
+  EXPECT_TRUE(says(html, "[\"comparison_force_plot_1\",\"comparison_force_plot_2\"]"));
 }
 
 TEST(Comparison, OneSampleOfEachAtOneDepthIsCompared) {
@@ -218,8 +217,7 @@ TEST(Comparison, ForcesAgainstIndentationEndWithThePress) {
   EXPECT_NE(result.text.find("1000.0000", lateral), std::string::npos) << result.text;
   EXPECT_NE(result.text.find("700.0000", lateral), std::string::npos) << result.text;
   EXPECT_EQ(result.text.find("0.1000  ", lateral), std::string::npos) << result.text;
-  EXPECT_NE(read_text(folder / "out/comparison.html").find("comparison_lateral"),
-            std::string::npos);
+  EXPECT_TRUE(says(read_text(folder / "out/comparison.html"), "comparison_lateral"));
 }
 
 TEST(Comparison, SaysThatRunsOfAnotherContactAreNotTheSameProblem) {
@@ -237,21 +235,17 @@ TEST(Comparison, SaysThatRunsOfAnotherContactAreNotTheSameProblem) {
                      report_testing::visible_text(read_text(folder / "out/comparison.html"))};
   };
   const auto [free, free_page] = compare("free");
-  EXPECT_NE(
-      free.find("WARNING: free and stick are not the same problem (contact: frictionless, not "
-                "stick)"),
-      std::string::npos)
-      << free;
-  EXPECT_NE(free_page.find("Not the same problem, see below."), std::string::npos);
-  EXPECT_NE(free_page.find("contact: frictionless, not stick"), std::string::npos);
+  EXPECT_TRUE(says(free,
+                   "WARNING: free and stick are not the same problem (contact: frictionless, not "
+                   "stick)"));
+  EXPECT_TRUE(
+      says(free_page, {"Not the same problem, see below.", "contact: frictionless, not stick"}));
   const auto [large, large_page] = compare("large");
-  EXPECT_EQ(large.find("WARNING"), std::string::npos) << large;
-  EXPECT_NE(large.find("finite strain, not small; pressed at 50 mm/s, not pressed at 10 mm/s"),
-            std::string::npos)
-      << large;
-  EXPECT_NE(large_page.find("finite strain, not small"), std::string::npos);
-  EXPECT_EQ(compare("same").first.find("note:"), std::string::npos);
-  EXPECT_NE(compare("unknown").first.find("not known"), std::string::npos);
+  EXPECT_TRUE(omits(large, "WARNING"));
+  EXPECT_TRUE(says(large, "finite strain, not small; pressed at 50 mm/s, not pressed at 10 mm/s"));
+  EXPECT_TRUE(says(large_page, "finite strain, not small"));
+  EXPECT_TRUE(omits(compare("same").first, "note:"));
+  EXPECT_TRUE(says(compare("unknown").first, "not known"));
 }
 
 TEST(Comparison, LeavesCellsEmptyBeyondTheDepthOfARun) {
@@ -288,7 +282,7 @@ TEST(Comparison, TellsRunsOfTheSameNameApartAndEscapesNames) {
   const std::string html = read_text(folder.path() / "out" / "comparison.html");
   EXPECT_TRUE(report_testing::structure_faults(html).empty())
       << report_testing::structure_faults(html).front();
-  EXPECT_NE(report_testing::visible_text(html).find(odd + " (2)"), std::string::npos);
+  EXPECT_TRUE(says(report_testing::visible_text(html), odd + " (2)"));
 }
 
 TEST(Comparison, RefusesLessThanTwoCurvesAndFoldersWithoutOne) {

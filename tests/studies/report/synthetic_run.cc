@@ -147,35 +147,18 @@ void write_reference_summary(const fs::path& folder) {
                        {"sliding_nodes", 0},
                        {"node_spacing", std::sqrt(1.1 * d * radius) / 20.0}});
   }
-  const json summary{{"program", "fingertip-fem"},
-                     {"status", "ok"},
-                     {"analysis", "static"},
-                     {"refinement", 0.5},
-                     {"worst_relative_error", 0.0045},
-                     {"contact_node_spacing", 1e-4},
-                     {"contact", "stick"},
-                     {"strain", "linear"},
-                     {"degree", 2},
-                     {"volumetric", "projected"},
-                     {"tolerance", 0.005},
-                     {"ranks", 1},
-                     {"solver", "condensed"},
-                     {"cells", 3214},
-                     {"dofs", 90000},
-                     {"contact_unknowns", 2500},
-                     {"wall_time", 24.5},
-                     {"peak_memory", 1.6e9},
-                     {"mesh",
-                      {{"hexahedra", 357},
-                       {"nodes", 560},
-                       {"min_jacobian", 1e-11},
-                       {"min_scaled_jacobian", 0.62},
-                       {"volume", 5.36e-6}}},
-                     {"meshes",
-                      {{{"cells", 357}, {"dofs", 10000}, {"samples", 30}, {"wall_time", 0.5}},
-                       {{"cells", 1071}, {"dofs", 30000}, {"samples", 30}, {"wall_time", 3.0}},
-                       {{"cells", 3214}, {"dofs", 90000}, {"samples", 30}, {"wall_time", 21.0}}}},
-                     {"samples", samples}};
+  json summary = json::parse(R"({
+    "program": "fingertip-fem", "status": "ok", "analysis": "static", "refinement": 0.5,
+    "worst_relative_error": 0.0045, "contact_node_spacing": 1e-4, "contact": "stick",
+    "strain": "linear", "degree": 2, "volumetric": "projected", "tolerance": 0.005, "ranks": 1,
+    "solver": "condensed", "cells": 3214, "dofs": 90000, "contact_unknowns": 2500,
+    "wall_time": 24.5, "peak_memory": 1.6e9,
+    "mesh": {"hexahedra": 357, "nodes": 560, "min_jacobian": 1e-11, "min_scaled_jacobian": 0.62,
+             "volume": 5.36e-6},
+    "meshes": [{"cells": 357, "dofs": 10000, "samples": 30, "wall_time": 0.5},
+               {"cells": 1071, "dofs": 30000, "samples": 30, "wall_time": 3.0},
+               {"cells": 3214, "dofs": 90000, "samples": 30, "wall_time": 21.0}]})");
+  summary["samples"] = samples;
   write_file(folder / "summary.json", summary.dump(2));
   const json job{
       {"geometry", {{"tip_radius", radius}, {"rod_radius", rod}, {"sleeve_length", sleeve}}},
@@ -227,22 +210,14 @@ void write_verification(const fs::path& folder) {
       }
     }
   }
-  const json checks{{{"name", "bonded disc, H = 0.5 cm"},
-                     {"quantity", "stiffness from the energy [N/m]"},
-                     {"source", "Ritz"},
-                     {"value", 425.9},
-                     {"expected", 425.81},
-                     {"relative_error", 2.1e-4},
-                     {"tolerance", 2e-3},
-                     {"passed", true}},
-                    {{"name", "balance of forces"},
-                     {"quantity", "force of the rod over force of the plane - 1"},
-                     {"source", "equilibrium"},
-                     {"value", 3e-7},
-                     {"expected", 0.0},
-                     {"relative_error", 3e-7},
-                     {"tolerance", 1e-8},
-                     {"passed", false}}};
+  const json checks = json::parse(R"([
+    {"name": "bonded disc, H = 0.5 cm", "quantity": "stiffness from the energy [N/m]",
+     "source": "Ritz", "value": 425.9, "expected": 425.81, "relative_error": 2.1e-4,
+     "tolerance": 2e-3, "passed": true},
+    {"name": "balance of forces",
+     "quantity": "force of the rod over force of the plane - 1", "source": "equilibrium",
+     "value": 3e-7, "expected": 0.0, "relative_error": 3e-7, "tolerance": 1e-8,
+     "passed": false}])");
   write_file(folder / "verification.json",
              json{{"studies", studies}, {"checks", checks}, {"locking", locking}}.dump(2));
 }

@@ -14,6 +14,7 @@
 #include "studies/report/report.h"
 #include "studies/report/results/calibration_data.h"
 #include "studies/report/results/grasp_run.h"
+#include "tests/expectations.h"
 #include "tests/studies/report/page_check.h"
 #include "tests/studies/report/synthetic_fit.h"
 #include "tests/studies/report/synthetic_run.h"
@@ -64,9 +65,8 @@ void expect_columns_missed(const fs::path& run, const fs::path& file) {
     names.replace(at, column.size() + 2, ",other " + column + ",");
     changed.become(names.substr(1, names.size() - 2) + changed.text().substr(line));
     const std::string damage = damage_of(run);
-    EXPECT_NE(damage.find(file.string() + ": the column '" + column + "' is missing"), damage.npos)
-        << file << ", " << column << "\n"
-        << damage;
+    EXPECT_TRUE(says(damage, file.string() + ": the column '" + column + "' is missing"))
+        << file << column;
   }
 }
 
@@ -118,9 +118,8 @@ void expect_entries_missed(const fs::path& run, const fs::path& file) {
     content[entry.parent_pointer()].erase(entry.back());
     changed.become(content.dump());
     const std::string damage = damage_of(run);
-    EXPECT_NE(damage.find(file.string() + ", " + spelled(entry) + ": is missing"), damage.npos)
-        << file << ", " << spelled(entry) << "\n"
-        << damage;
+    EXPECT_TRUE(says(damage, file.string() + ", " + spelled(entry) + ": is missing"))
+        << file << spelled(entry);
   }
 }
 
@@ -244,8 +243,7 @@ TEST_F(Fields, ThePageListsThem) {
   changed.become(manifest.dump());
   report::write_report(run_);
   const std::string page = report_testing::visible_text(read_text(run_ / "report.html"));
-  EXPECT_NE(page.find("manifest.json, started"), page.npos);
-  EXPECT_NE(page.find("is missing"), page.npos);
+  EXPECT_TRUE(says(page, {"manifest.json, started", "is missing"}));
 }
 
 TEST_F(Fields, StructsAreWrittenAsTheyAreRead) {

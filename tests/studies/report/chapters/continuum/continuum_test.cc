@@ -8,6 +8,7 @@
 
 #include "meshes/base/errors.h"
 #include "studies/report/report.h"
+#include "tests/expectations.h"
 #include "tests/studies/report/page_check.h"
 #include "tests/studies/report/synthetic_run.h"
 
@@ -18,10 +19,6 @@ using namespace fingertip;
 using nlohmann::json;
 using report_testing::visible_text;
 using report_testing::write_file;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 class ContinuumReport : public testing::Test {
  protected:
@@ -71,13 +68,10 @@ class ContinuumReport : public testing::Test {
 
 TEST_F(ContinuumReport, NamesTheWorstErrorAndItsDepth) {
   const std::string text = chapter("continuum");
-  EXPECT_TRUE(has(text, "known to within 0.45 % at every depth computed")) << text.substr(0, 400);
+  EXPECT_TRUE(says(text, "known to within 0.45 % at every depth computed"));
   // 0.45 % of 1200 N/m^1.5 (1 mm)^1.5 = 0.17076 mN; 0.3 % of the force at 3 mm, 0.59 mN, is more.
-  EXPECT_TRUE(has(text, "170.8 µN, belongs to 1 mm"));
-  EXPECT_TRUE(has(text, "591.5 µN, to 3 mm"));
-  EXPECT_TRUE(has(text, "Asked for was 0.50 %: reached."));
-  EXPECT_TRUE(has(text, "repeated on 3 meshes"));
-  EXPECT_TRUE(has(text, "1.25 times"));
+  EXPECT_TRUE(says(text, {"170.8 µN, belongs to 1 mm", "591.5 µN, to 3 mm",
+                          "Asked for was 0.50 %: reached.", "repeated on 3 meshes", "1.25 times"}));
 }
 
 TEST_F(ContinuumReport, DoesNotClaimAToleranceThatWasMissed) {
@@ -87,20 +81,17 @@ TEST_F(ContinuumReport, DoesNotClaimAToleranceThatWasMissed) {
     summary["message"] = "a finer mesh would exceed the limit";
   });
   const std::string text = chapter("continuum");
-  EXPECT_TRUE(has(text, "Asked for was 0.40 %: not reached."));
-  EXPECT_TRUE(has(text, "Status: not converged. ")) << text.substr(0, 200);
-  EXPECT_TRUE(has(text, "a finer mesh would exceed the limit"));
+  EXPECT_TRUE(says(text, {"Asked for was 0.40 %: not reached.", "Status: not converged. ",
+                          "a finer mesh would exceed the limit"}));
 }
 
 TEST_F(ContinuumReport, TabulatesEveryDepthAndEveryMesh) {
   const std::string text = chapter("continuum");
   // Hertz at 3 mm: F = 4/3 E* sqrt(R) d^1.5 = 0.105280 N against 0.197181 N.
-  for (const char* part : {"197.18", "0.30 %", "monotone 2.3", "+87.3 %", "2\u202f700",
-                           "20 along a", "contact 6", "3\u202f214", "90\u202f000", "21.00 s"}) {
-    EXPECT_TRUE(has(text, part)) << part;
-  }
-  EXPECT_FALSE(has(text, "Smallest J")) << "of linear strain";
-  EXPECT_FALSE(has(text, "Newton")) << "of linear strain";
+  EXPECT_TRUE(says(text, {"197.18", "0.30 %", "monotone 2.3", "+87.3 %", "2\u202f700", "20 along a",
+                          "contact 6", "3\u202f214", "90\u202f000", "21.00 s"}));
+  EXPECT_TRUE(omits(text, "Smallest J")) << "of linear strain";
+  EXPECT_TRUE(omits(text, "Newton")) << "of linear strain";
 }
 
 TEST_F(ContinuumReport, FiniteStrainShowsItsJacobianAndNewtonIterations) {
@@ -109,11 +100,8 @@ TEST_F(ContinuumReport, FiniteStrainShowsItsJacobianAndNewtonIterations) {
     summary["law"] = "neo-hookean, logarithmic";
   });
   const std::string text = chapter("continuum");
-  EXPECT_TRUE(has(text, "Smallest J"));
-  EXPECT_TRUE(has(text, "0.731"));
-  EXPECT_TRUE(has(text, "Newton 17, contact 6"));
-  EXPECT_TRUE(has(text, "strain is finite"));
-  EXPECT_TRUE(has(chapter("cost"), "finite, neo-hookean, logarithmic"));
+  EXPECT_TRUE(says(text, {"Smallest J", "0.731", "Newton 17, contact 6", "strain is finite"}));
+  EXPECT_TRUE(says(chapter("cost"), "finite, neo-hookean, logarithmic"));
 }
 
 TEST_F(ContinuumReport, ConvergenceFigureHoldsTheChangesAndTheEstimate) {
@@ -135,9 +123,7 @@ TEST_F(ContinuumReport, ConvergenceFigureHoldsTheChangesAndTheEstimate) {
 TEST_F(ContinuumReport, LogarithmicAxesCountInDecades) {
   report();
   const std::string svg = read_text(run_ / "figures" / "mesh_convergence.svg");
-  EXPECT_TRUE(has(svg, "10⁴"));
-  EXPECT_TRUE(has(svg, "5×10⁴"));
-  EXPECT_TRUE(has(svg, "0.5<"));
+  EXPECT_TRUE(says(svg, {"10⁴", "5×10⁴", "0.5<"}));
 }
 
 TEST_F(ContinuumReport, OneMeshIsNoEstimate) {
@@ -158,9 +144,8 @@ TEST_F(ContinuumReport, OneMeshIsNoEstimate) {
     if (line[0] == 'm' || line[0] == '1') single += line + "\n";
   write_file(run_ / "reference" / "convergence.csv", single);
   const std::string text = chapter("continuum");
-  EXPECT_TRUE(has(text, "How far the force is off is not known"));
-  EXPECT_FALSE(has(text, "How it is estimated"));
-  EXPECT_FALSE(has(text, "nan"));
+  EXPECT_TRUE(says(text, "How far the force is off is not known"));
+  EXPECT_TRUE(omits(text, {"How it is estimated", "nan"}));
   EXPECT_FALSE(fs::exists(run_ / "figures" / "mesh_convergence.svg"));
 }
 
@@ -190,7 +175,7 @@ TEST_F(ContinuumReport, BallsStandBesideHertzOfBothRadiiAndAreDrawn) {
   chapter("continuum");
   ASSERT_FALSE(line("plane").empty());
   const double top = line("plane").begin()->second;  // at first touch; later rows are the pressed
-  EXPECT_TRUE(has(press_on({{"shape", "sphere"}, {"radius", 0.006}}), "on the same ball"));
+  EXPECT_TRUE(says(press_on({{"shape", "sphere"}, {"radius", 0.006}}), "on the same ball"));
   const auto hertz = points("pressure", "3 mm Hertz", "radius [mm]", "contact pressure [kPa]");
   ASSERT_FALSE(hertz.empty());
   EXPECT_NEAR(hertz.rbegin()->first, std::sqrt(10.0 * 6.0 / 16.0 * 3.0), 1e-9);
@@ -204,14 +189,14 @@ TEST_F(ContinuumReport, BallsStandBesideHertzOfBothRadiiAndAreDrawn) {
   // Beside the axis two spheres are pressed aslant; an edge is no sphere.
   for (const json& obstacle : {json{{"shape", "sphere"}, {"radius", 0.006}, {"offset", 0.002}},
                                json{{"shape", "edge"}, {"radius", 0.003}, {"along", "x"}}})
-    EXPECT_FALSE(has(press_on(obstacle), "Against Hertz")) << obstacle;
+    EXPECT_TRUE(omits(press_on(obstacle), "Against Hertz")) << obstacle;
 }
 
 TEST_F(ContinuumReport, WithoutTheJobThereIsNoHertz) {
   fs::remove(run_ / "reference" / "job.json");
   const std::string html = report(), text = visible_text(html);
-  EXPECT_TRUE(has(text, "Hertz's contact beside the continuum's"));
-  EXPECT_FALSE(has(text, "Against Hertz"));
+  EXPECT_TRUE(says(text, "Hertz's contact beside the continuum's"));
+  EXPECT_TRUE(omits(text, "Against Hertz"));
   EXPECT_TRUE(points("pressure", "3 mm Hertz", "radius [mm]", "contact pressure [kPa]").empty());
 }
 
@@ -232,14 +217,14 @@ TEST_F(ContinuumReport, ManyNodesAreThinnedButKeepTheirPeaks) {
 
 TEST_F(ContinuumReport, VerificationSumsUpWhatPassedAndNamesWhatDidNot) {
   const std::string text = chapter("verification");
-  EXPECT_TRUE(has(text, "1 of 2 checks against known solutions passed")) << text.substr(0, 400);
-  EXPECT_TRUE(has(text, "In 11 of 12 convergence studies"));
-  EXPECT_TRUE(has(text, "Slower in “nearly solenoidal”: Q1 pointwise."));
-  EXPECT_TRUE(has(text, "Failed: balance of forces."));
-  EXPECT_TRUE(has(text, "computed with Q2 projected, which keeps its order in 2 of 2 studies."));
-  EXPECT_TRUE(has(text, "425.81 N/m")) << text;
+  EXPECT_TRUE(says(text, "1 of 2 checks against known solutions passed"));
+  EXPECT_TRUE(
+      says(text,
+           {"In 11 of 12 convergence studies", "Slower in “nearly solenoidal”: Q1 pointwise.",
+            "Failed: balance of forces.",
+            "computed with Q2 projected, which keeps its order in 2 of 2 studies.", "425.81 N/m"}));
   // 0.02/(1 - 2 0.4999) = 100
-  EXPECT_TRUE(has(text, "+10000 %")) << text.substr(text.find("same numbers"), 600);
+  EXPECT_TRUE(says(text, "+10000 %"));
 }
 
 TEST_F(ContinuumReport, ChecksOfOneKindShareARowWithTheWorst) {
@@ -260,19 +245,17 @@ TEST_F(ContinuumReport, ChecksOfOneKindShareARowWithTheWorst) {
     checks.back()["passed"] = false;
   });
   const std::string text = chapter("verification");
-  EXPECT_TRUE(has(text, "patch test, mesh 13"));
-  EXPECT_TRUE(has(text, "all 20"));
-  EXPECT_TRUE(has(text, "6.5×10⁻¹¹"));
-  EXPECT_FALSE(has(text, "patch test, mesh 12"));
-  EXPECT_TRUE(has(text, "Failed: balance of forces and patch test, broken mesh."));
-  EXPECT_TRUE(has(text.substr(text.find("failed ones first")), "patch test, broken mesh"));
+  EXPECT_TRUE(says(text, {"patch test, mesh 13", "all 20", "6.5×10⁻¹¹"}));
+  EXPECT_TRUE(omits(text, "patch test, mesh 12"));
+  EXPECT_TRUE(says(text, "Failed: balance of forces and patch test, broken mesh."));
+  EXPECT_TRUE(says(text.substr(text.find("failed ones first")), "patch test, broken mesh"));
 }
 
 TEST_F(ContinuumReport, VerificationMarksOrders) {
   const std::string html = report();
-  EXPECT_TRUE(has(html, "class=\"close\">2.98<span class=\"mark\">●</span>"));
-  EXPECT_TRUE(has(html, "class=\"wrong\">1.10<span class=\"mark\">✕</span>"));
-  EXPECT_TRUE(has(html, "class=\"wrong\">3.0×10⁻⁷<span class=\"mark\">✕</span>"));
+  EXPECT_TRUE(says(html, {"class=\"close\">2.98<span class=\"mark\">●</span>",
+                          "class=\"wrong\">1.10<span class=\"mark\">✕</span>",
+                          "class=\"wrong\">3.0×10⁻⁷<span class=\"mark\">✕</span>"}));
 }
 
 // Errors of the order p fall by 2^p when h is halved, and so must the slope beside them.
@@ -300,18 +283,18 @@ TEST_F(ContinuumReport, LockingFigureCountsTowardsIncompressible) {
 TEST_F(ContinuumReport, VerificationIsNamedWhenNotRunAndShownWhenPartial) {
   fs::remove_all(run_ / "verification");
   EXPECT_EQ(chapter("verification"), "");
-  EXPECT_TRUE(has(visible_text(report()), "Verification of the continuum's code"));
+  EXPECT_TRUE(says(visible_text(report()), "Verification of the continuum's code"));
   write_file(run_ / "verification" / "verification.json",
              R"({"studies":[],"checks":[{"name":"<b>one</b>","passed":true}],"locking":[]})");
   const std::string html = report();
-  EXPECT_TRUE(has(chapter("verification"), "1 of 1 checks"));
-  EXPECT_FALSE(has(html, "<b>one"));
+  EXPECT_TRUE(says(chapter("verification"), "1 of 1 checks"));
+  EXPECT_TRUE(omits(html, "<b>one"));
   EXPECT_TRUE(report_testing::structure_faults(html).empty());
   write_file(run_ / "verification" / "verification.json", "{\"studies\": [");
   const studies::report::Damages damage = studies::report::write_report(run_);
   ASSERT_EQ(damage.size(), 1U);
-  EXPECT_TRUE(has(damage.front().key, "verification.json:1:14")) << damage.front().key;
-  EXPECT_TRUE(has(visible_text(read_text(run_ / "report.html")), "verification.json:1:14"));
+  EXPECT_TRUE(says(damage.front().key, "verification.json:1:14"));
+  EXPECT_TRUE(says(visible_text(read_text(run_ / "report.html")), "verification.json:1:14"));
 }
 
 TEST_F(ContinuumReport, SurvivesStrangeEntries) {
@@ -324,7 +307,7 @@ TEST_F(ContinuumReport, SurvivesStrangeEntries) {
   });
   const std::string html = report();
   EXPECT_TRUE(report_testing::structure_faults(html).empty());
-  EXPECT_FALSE(has(visible_text(html), " nan"));
+  EXPECT_TRUE(omits(visible_text(html), " nan"));
 }
 
 }  // namespace
