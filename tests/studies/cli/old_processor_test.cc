@@ -8,9 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "meshes/press/press_response.h"
-#include "tests/studies/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/workplace.h"
 
 using fingertip::meshes::PressResponse;
 using fingertip::meshes::PressSample;
@@ -54,31 +52,19 @@ class OldProcessor : public ::testing::TestWithParam<const char*> {
     ::setenv("OPENBLAS_NUM_THREADS", "1", 1);
   }
 
-  /// Runs the same command on both processors, each in a folder, with a cache, of its own.
-  void run_both(const std::vector<std::string>& command) const {
-    std::vector<std::string> words = command;
-    words.insert(words.end(), {"--out", "run", "--progress", "off"});
+  /// Presses a tip of 246 masses, quick enough for an emulator, on both processors, each in a
+  /// folder, with a cache, of its own.
+  void expect_the_same_press(const Words& settings) const {
+    const Words words =
+        with_settings({"press", "--out", "run", "--progress", "off"},
+                      settings + Words{"lattice.spacing=tip_radius/4", "press.contact=stick"});
     expect_success(run_program(native_.path(), words));
-    std::vector<std::string> emulated = {"-cpu", GetParam(), FINGERTIP_PROGRAM};
-    emulated.insert(emulated.end(), words.begin(), words.end());
-    expect_success(run_program(old_.path(), emulated, emulator));
+    expect_success(
+        run_program(old_.path(), Words{"-cpu", GetParam(), FINGERTIP_PROGRAM} + words, emulator));
+    expect_same(old_.response("run"), native_.response("run"), 1e-9);
   }
 
-  /// A tip of 246 masses, quick enough for an emulator.
-  static std::vector<std::string> press(std::initializer_list<std::string> sets) {
-    std::vector<std::string> words = {"press"};
-    for (const char* always : {"lattice.spacing=tip_radius/4", "press.contact=stick"})
-      words.insert(words.end(), {"--set", always});
-    for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
-    return words;
-  }
-
-  void expect_same_response(double tolerance) const {
-    expect_same(PressResponse::read_csv(old_ / "run/response.csv"),
-                PressResponse::read_csv(native_ / "run/response.csv"), tolerance);
-  }
-
-  const TemporaryFolder native_, old_;
+  const Workplace native_, old_;
 
  private:
   static void expect_success(const ProgramResult& result) {
@@ -89,25 +75,25 @@ class OldProcessor : public ::testing::TestWithParam<const char*> {
 }  // namespace
 
 TEST_P(OldProcessor, PressesANetworkAsThisOneDoes) {
-  run_both(press({"lattice.model=network", "press.depth=0.003 cm", "press.clearance=0.0005 cm"}));
-  expect_same_response(1e-9);
+  expect_the_same_press(
+      {"lattice.model=network", "press.depth=0.003 cm", "press.clearance=0.0005 cm"});
 }
 
 TEST_P(OldProcessor, PressesHookeanSpringsAsThisOneDoes) {
-  run_both(press({"lattice.model=hookean", "press.depth=0.003 cm", "press.clearance=0.0005 cm"}));
-  expect_same_response(1e-9);
+  expect_the_same_press(
+      {"lattice.model=hookean", "press.depth=0.003 cm", "press.clearance=0.0005 cm"});
 }
 
 TEST_P(OldProcessor, PressesWithScaledMassesAsThisOneDoes) {
-  run_both(press({"lattice.model=network", "run.integrator=mass-scaled", "run.time_step=250 us",
-                  "press.depth=0.01 cm", "press.clearance=0.001 cm"}));
-  expect_same_response(1e-9);
+  expect_the_same_press({"lattice.model=network", "run.integrator=mass-scaled",
+                         "run.time_step=250 us", "press.depth=0.01 cm",
+                         "press.clearance=0.001 cm"});
 }
 
 /// The sparse factorisation is OpenBLAS', which has kernels of its own for every processor.
 TEST_P(OldProcessor, FindsTheSameEquilibrium) {
-  run_both(press({"lattice.model=network", "press.mode=static", "press.samples=[\"0.05 cm\"]"}));
-  expect_same_response(1e-9);
+  expect_the_same_press(
+      {"lattice.model=network", "press.mode=static", "press.samples=[\"0.05 cm\"]"});
 }
 
 /// OpenBLAS falls back to kernels without AVX on a Xeon made after it (family 6, model 207).
@@ -119,13 +105,11 @@ TEST(UnknownProcessor, GetsKernelsThatItCanRun) {
     return run_program(folder.path(), {"-cpu", processor, FINGERTIP_PROGRAM, "doctor"}, emulator)
         .out;
   };
-  const std::string unknown = doctor("Haswell,model=207"), known = doctor("Haswell");
-  EXPECT_NE(unknown.find("OpenBLAS with kernels for Haswell (it does not know"), unknown.npos)
-      << unknown;
-  EXPECT_NE(known.find("OpenBLAS with kernels for Haswell\n"), known.npos) << known;
+  EXPECT_TRUE(
+      says(doctor("Haswell,model=207"), "OpenBLAS with kernels for Haswell (it does not know"));
+  EXPECT_TRUE(says(doctor("Haswell"), "OpenBLAS with kernels for Haswell\n"));
   ::setenv("OPENBLAS_CORETYPE", "Prescott", 1);
-  const std::string asked = doctor("Haswell,model=207");
-  EXPECT_NE(asked.find("OpenBLAS with kernels for Prescott\n"), asked.npos) << asked;
+  EXPECT_TRUE(says(doctor("Haswell,model=207"), "OpenBLAS with kernels for Prescott\n"));
 }
 
 INSTANTIATE_TEST_SUITE_P(WithoutAvx, OldProcessor, ::testing::ValuesIn(old_processors),
