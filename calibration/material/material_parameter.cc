@@ -1,6 +1,7 @@
 #include "calibration/material/material_parameter.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace fingertip::calibration::inline material {
 
@@ -57,79 +58,52 @@ Eigen::Vector2d moduli_slopes(MaterialParameter parameter, double poissons_ratio
   }
 }
 
-std::string_view name(MaterialParameter parameter) {
-  switch (parameter) {
-    case MaterialParameter::youngs_modulus: return "youngs_modulus";
-    case MaterialParameter::shear_modulus: return "shear_modulus";
-    case MaterialParameter::modulus: return "modulus";
-    case MaterialParameter::k1: return "k1";
-    case MaterialParameter::k2: return "k2";
-    case MaterialParameter::k3: return "k3";
-    case MaterialParameter::kappa: return "kappa";
-    case MaterialParameter::lame_shear: return "lame_shear";
-    case MaterialParameter::lambda: return "lambda";
-    case MaterialParameter::bond: return "bond";
-    case MaterialParameter::contact: return "contact";
-    case MaterialParameter::retardation_time: return "retardation_time";
-    case MaterialParameter::yeoh_c1: return "yeoh_c1";
-    case MaterialParameter::yeoh_c2: return "yeoh_c2";
-    case MaterialParameter::yeoh_c3: return "yeoh_c3";
-    case MaterialParameter::mooney_c10: return "mooney_c10";
-    case MaterialParameter::mooney_c01: return "mooney_c01";
-    case MaterialParameter::ogden_mu1: return "ogden_mu1";
-    case MaterialParameter::ogden_alpha1: return "ogden_alpha1";
-    case MaterialParameter::ogden_mu2: return "ogden_mu2";
-    case MaterialParameter::ogden_alpha2: return "ogden_alpha2";
-    case MaterialParameter::ogden_mu3: return "ogden_mu3";
-    case MaterialParameter::ogden_alpha3: return "ogden_alpha3";
-    case MaterialParameter::gent_jm: return "gent_jm";
-    case MaterialParameter::bulk_modulus: return "bulk_modulus";
-    case MaterialParameter::relaxation_g1: return "relaxation_g1";
-    case MaterialParameter::relaxation_tau1: return "relaxation_tau1";
-    case MaterialParameter::relaxation_g2: return "relaxation_g2";
-    case MaterialParameter::relaxation_tau2: return "relaxation_tau2";
-    case MaterialParameter::relaxation_g3: return "relaxation_g3";
-    case MaterialParameter::relaxation_tau3: return "relaxation_tau3";
-    case MaterialParameter::relaxation_g4: return "relaxation_g4";
-    case MaterialParameter::relaxation_tau4: return "relaxation_tau4";
-    case MaterialParameter::relaxation_g5: return "relaxation_g5";
-    case MaterialParameter::relaxation_tau5: return "relaxation_tau5";
-    case MaterialParameter::touch_offset: return "touch_offset";
-    case MaterialParameter::compliance: return "compliance";
-    case MaterialParameter::force_offset: return "force_offset";
-    case MaterialParameter::drift: return "drift";
-  }
-  return "unknown";
-}
-
-std::string_view unit(MaterialParameter parameter) {
-  switch (parameter) {
-    case MaterialParameter::k1:
-    case MaterialParameter::k2:
-    case MaterialParameter::k3: return "N/m";
-    case MaterialParameter::bond:
-    case MaterialParameter::contact:
-    case MaterialParameter::ogden_alpha1:
-    case MaterialParameter::ogden_alpha2:
-    case MaterialParameter::ogden_alpha3:
-    case MaterialParameter::gent_jm:
-    case MaterialParameter::relaxation_g1:
-    case MaterialParameter::relaxation_g2:
-    case MaterialParameter::relaxation_g3:
-    case MaterialParameter::relaxation_g4:
-    case MaterialParameter::relaxation_g5: return "1";
-    case MaterialParameter::retardation_time:
-    case MaterialParameter::relaxation_tau1:
-    case MaterialParameter::relaxation_tau2:
-    case MaterialParameter::relaxation_tau3:
-    case MaterialParameter::relaxation_tau4:
-    case MaterialParameter::relaxation_tau5: return "s";
-    case MaterialParameter::touch_offset: return "m";
-    case MaterialParameter::compliance: return "m/N";
-    case MaterialParameter::force_offset: return "N";
-    case MaterialParameter::drift: return "N/s";
-    default: return "Pa";
-  }
+const ParameterKind& kind(MaterialParameter parameter) {
+  using enum Sign;
+  // In the order of the enumerators.
+  static constexpr ParameterKind kinds[] = {
+      {"youngs_modulus", "Pa", positive},
+      {"shear_modulus", "Pa", positive},
+      {"modulus", "Pa", positive},
+      {"k1", "N/m", not_negative},
+      {"k2", "N/m", not_negative},
+      {"k3", "N/m", not_negative},
+      {"kappa", "Pa", any},
+      {"lame_shear", "Pa", positive},
+      {"lambda", "Pa", any},
+      {"bond", "1", positive},
+      {"contact", "1", positive},
+      {"retardation_time", "s", positive},
+      {"yeoh_c1", "Pa", not_negative},
+      {"yeoh_c2", "Pa", any},
+      {"yeoh_c3", "Pa", any},
+      {"mooney_c10", "Pa", any},
+      {"mooney_c01", "Pa", any},
+      {"ogden_mu1", "Pa", positive},
+      {"ogden_alpha1", "1", any},
+      {"ogden_mu2", "Pa", positive},
+      {"ogden_alpha2", "1", any},
+      {"ogden_mu3", "Pa", positive},
+      {"ogden_alpha3", "1", any},
+      {"gent_jm", "1", positive},
+      {"bulk_modulus", "Pa", positive},
+      {"relaxation_g1", "1", not_negative},
+      {"relaxation_tau1", "s", positive},
+      {"relaxation_g2", "1", not_negative},
+      {"relaxation_tau2", "s", positive},
+      {"relaxation_g3", "1", not_negative},
+      {"relaxation_tau3", "s", positive},
+      {"relaxation_g4", "1", not_negative},
+      {"relaxation_tau4", "s", positive},
+      {"relaxation_g5", "1", not_negative},
+      {"relaxation_tau5", "s", positive},
+      {"touch_offset", "m", any},
+      {"compliance", "m/N", any},
+      {"force_offset", "N", any},
+      {"drift", "N/s", any},
+  };
+  static_assert(std::size(kinds) == std::size_t(MaterialParameter::drift) + 1);
+  return kinds[std::size_t(parameter)];
 }
 
 Eigen::RowVector2d lambda_slopes(double e, double g) {

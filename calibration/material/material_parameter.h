@@ -58,11 +58,22 @@ enum class MaterialParameter {
   drift,         ///< by how much that changes in time [N/s]
 };
 
-/// The enumerator's name.
-std::string_view name(MaterialParameter parameter);
+/// What it may be by nature. What is positive is sought by its logarithm.
+enum class Sign { positive, not_negative, any };
 
-/// "Pa", "N/m", "s", "m", "m/N", "N", "N/s" or "1".
-std::string_view unit(MaterialParameter parameter);
+struct ParameterKind {
+  std::string_view name;  ///< the enumerator's
+  std::string_view unit;  ///< "Pa", "N/m", "s", "m", "m/N", "N", "N/s" or "1"
+  Sign sign;
+};
+const ParameterKind& kind(MaterialParameter parameter);
+
+inline std::string_view name(MaterialParameter parameter) {
+  return kind(parameter).name;
+}
+inline std::string_view unit(MaterialParameter parameter) {
+  return kind(parameter).unit;
+}
 
 /// What belongs to a machine or to one of its files.
 inline constexpr std::array rig_parameters{

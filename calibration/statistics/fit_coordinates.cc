@@ -22,26 +22,7 @@ double compressibility(double poissons_ratio) {
 }  // namespace
 
 bool varies_by_logarithm(const FreeParameter& free) {
-  switch (free.parameter) {
-    case MaterialParameter::youngs_modulus:
-    case MaterialParameter::shear_modulus:
-    case MaterialParameter::modulus:
-    case MaterialParameter::lame_shear:
-    case MaterialParameter::bond:
-    case MaterialParameter::contact:
-    case MaterialParameter::retardation_time:
-    case MaterialParameter::ogden_mu1:
-    case MaterialParameter::ogden_mu2:
-    case MaterialParameter::ogden_mu3:
-    case MaterialParameter::gent_jm:
-    case MaterialParameter::bulk_modulus:
-    case MaterialParameter::relaxation_tau1:
-    case MaterialParameter::relaxation_tau2:
-    case MaterialParameter::relaxation_tau3:
-    case MaterialParameter::relaxation_tau4:
-    case MaterialParameter::relaxation_tau5: return true;
-    default: return false;
-  }
+  return kind(free.parameter).sign == Sign::positive;
 }
 
 double size_of(const FreeParameter& free) {
@@ -49,22 +30,7 @@ double size_of(const FreeParameter& free) {
 }
 
 double lower_bound(const FreeParameter& free) {
-  switch (free.parameter) {
-    case MaterialParameter::kappa:
-    case MaterialParameter::lambda:
-    case MaterialParameter::yeoh_c2:
-    case MaterialParameter::yeoh_c3:
-    case MaterialParameter::mooney_c10:
-    case MaterialParameter::mooney_c01:
-    case MaterialParameter::ogden_alpha1:
-    case MaterialParameter::ogden_alpha2:
-    case MaterialParameter::ogden_alpha3:
-    case MaterialParameter::touch_offset:
-    case MaterialParameter::compliance:
-    case MaterialParameter::force_offset:
-    case MaterialParameter::drift: return free.lower;
-    default: return std::max(0.0, free.lower);
-  }
+  return kind(free.parameter).sign == Sign::any ? free.lower : std::max(0.0, free.lower);
 }
 
 std::optional<std::pair<Index, Index>> places_of_moduli(const CurveFitOptions& options) {
