@@ -37,41 +37,11 @@ double youngs_modulus_along(const ElasticModuli& moduli, const Eigen::Vector3d& 
   return 1.0 / (s11 - 2.0 * (s11 - s12 - 0.5 * s44) * off_axis(direction));
 }
 
-Eigen::RowVector3d youngs_modulus_slopes(const ElasticModuli& moduli,
-                                         const Eigen::Vector3d& direction) {
-  const double q = off_axis(direction), e = youngs_modulus_along(moduli, direction);
-  const double shear = moduli.c11 - moduli.c12, bulk = moduli.c11 + 2.0 * moduli.c12;
-  const double by_shear = (2.0 / 3.0 - 2.0 * q) / (shear * shear);
-  const double by_bulk = 1.0 / (3.0 * bulk * bulk);
-  return e * e *
-         Eigen::RowVector3d(by_shear + by_bulk, 2.0 * by_bulk - by_shear,
-                            q / (moduli.c44 * moduli.c44));
-}
-
-Eigen::Matrix<double, 3, 4> stiffness_jacobian(double spacing) {
-  Eigen::Matrix<double, 3, 4> jacobian;
-  jacobian << 1.0, 2.0, 4.0 / 3.0, spacing,  //
-      0.0, 1.0, 4.0 / 3.0, spacing,          //
-      0.0, 1.0, 4.0 / 3.0, 0.0;
-  return jacobian / spacing;
-}
-
 ElasticModuli homogenised_moduli(const lattice::SpringConstants& constants, double spacing) {
-  const Eigen::Vector4d k(constants.k1, constants.k2, constants.k3, constants.kappa);
-  const Eigen::Vector3d c = stiffness_jacobian(spacing) * k;
-  return moduli_from_stiffness(c(0), c(1), c(2));
-}
-
-Eigen::Matrix4d moduli_jacobian(const lattice::SpringConstants& constants, double spacing) {
-  const ElasticModuli m = homogenised_moduli(constants, spacing);
-  const double sum = m.c11 + m.c12;
-  // nu = C12/(C11 + C12), K = (C11 + 2 C12)/3.
-  Eigen::Matrix<double, 4, 3> by_stiffness;
-  by_stiffness << youngs_modulus_slopes(m, Eigen::Vector3d::UnitX()),  //
-      0.0, 0.0, 1.0,                                                   //
-      -m.c12 / (sum * sum), m.c11 / (sum * sum), 0.0,                  //
-      1.0 / 3.0, 2.0 / 3.0, 0.0;
-  return by_stiffness * stiffness_jacobian(spacing);
+  const auto& [k1, k2, k3, kappa] = constants;
+  const double c44 = (k2 + 4.0 / 3.0 * k3) / spacing;
+  return moduli_from_stiffness((k1 + 2.0 * k2 + 4.0 / 3.0 * k3) / spacing + kappa, c44 + kappa,
+                               c44);
 }
 
 }  // namespace fingertip::calibration::inline material

@@ -27,21 +27,9 @@ ElasticModuli moduli_from_stiffness(double c11, double c12, double c44);
 /// 1/E = S11 - 2 (S11 - S12 - S44/2)(l²m² + m²n² + n²l²).
 double youngs_modulus_along(const ElasticModuli& moduli, const Eigen::Vector3d& direction);
 
-/// d(that)/d(C11, C12, C44), dimensionless: with q = l²m² + m²n² + n²l²,
-/// 1/E = (2/3 - 2q)/(C11 - C12) + 1/(3 (C11 + 2 C12)) + q/C44.
-Eigen::RowVector3d youngs_modulus_slopes(const ElasticModuli& moduli,
-                                         const Eigen::Vector3d& direction);
-
 /// Homogenised constants of the infinite lattice [derived in README]:
 ///   C11 = (k1 + 2 k2 + 4/3 k3)/a + kappa,  C12 = (k2 + 4/3 k3)/a + kappa,  C44 = (k2 + 4/3 k3)/a.
 /// `spacing` a > 0 [m].
 ElasticModuli homogenised_moduli(const lattice::SpringConstants& constants, double spacing);
-
-/// d(C11, C12, C44)/d(k1, k2, k3, kappa), one row per stiffness; [1/m] in the first three columns,
-/// dimensionless in the last. The map is linear, so this holds everywhere.
-Eigen::Matrix<double, 3, 4> stiffness_jacobian(double spacing);
-
-/// d(E_100, G, nu_100, K)/d(k1, k2, k3, kappa), one row per modulus in that order, at `constants`.
-Eigen::Matrix4d moduli_jacobian(const lattice::SpringConstants& constants, double spacing);
 
 }  // namespace fingertip::calibration::inline material

@@ -45,14 +45,6 @@ std::string directions_part(const ElasticModuli& got) {
          rounded(got.anisotropy) + ")";
 }
 
-/// What non-negative springs have that meet E_100 and G alone: C12 = C44 = G, and C11 solves
-/// E (C11 + G) = (C11 - G)(C11 + 2G).
-ElasticModuli without_weights(const meshes::Rubber& rubber) {
-  const double e = rubber.youngs_modulus, g = rubber.shear_modulus;
-  const double c11 = 0.5 * (e - g + std::sqrt((e - g) * (e - g) + 4.0 * g * (e + 2.0 * g)));
-  return moduli_from_stiffness(c11, g, g);
-}
-
 std::string central_part(const ModuliFit& fit) {
   const meshes::Rubber& rubber = fit.target;
   const ElasticModuli& got = fit.achieved;
@@ -72,7 +64,9 @@ std::string central_part(const ModuliFit& fit) {
 
 std::string compromise_part(const ModuliFit& fit) {
   const meshes::Rubber& rubber = fit.target;
-  const ElasticModuli &got = fit.achieved, exact = without_weights(rubber);
+  const ElasticModuli& got = fit.achieved;
+  const ElasticModuli exact =
+      fit_moduli(rubber, {.model = fit.model, .spacing = fit.spacing}).achieved;
   const double nu = rubber.poissons_ratio();
   const std::string text(cauchy_relation);
   if (std::abs(nu - 0.25) < 1e-6)
@@ -95,15 +89,6 @@ std::string model_part(const ModuliFit& fit) {
   return fit.is_compromise() ? compromise_part(fit) : central_part(fit);
 }
 
-std::string open_directions(const ModuliFit& fit) {
-  std::string text;
-  for (const Eigen::Vector4d& direction : fit.unidentifiable)
-    text += " The tests cannot tell apart constants that differ along (" +
-            describe_direction(direction) +
-            "): the moduli see the springs only through k1 + 2 k2 + 4/3 k3 and k2 + 4/3 k3.";
-  return text;
-}
-
 }  // namespace
 
 std::string describe_direction(const Eigen::Vector4d& direction) {
@@ -121,17 +106,17 @@ std::string describe_direction(const Eigen::Vector4d& direction) {
 
 std::string fit_statement(const ModuliFit& fit) {
   const bool body_diagonals = fit.constants.k3 > 1e-9 * fit.constants.k2;
-  std::string text =
-      model_part(fit) + open_directions(fit) +
+  const std::string text =
+      model_part(fit) + " The tests cannot tell apart constants that differ along (" +
+      describe_direction(fit.unidentifiable) +
+      "): the moduli see the springs only through k1 + 2 k2 + 4/3 k3 and k2 + 4/3 k3."
       " Of these the constants whose weaker one of k1 and k2 is largest were chosen, farthest from "
       "the lattices with motions that cost nothing: k3 = " +
       (body_diagonals ? rounded(fit.constants.k3) + " N/m" : std::string("0, no body diagonals")) +
       ".";
-  text += fit.cell_mechanisms == 0
-              ? " A single cell has no such motion."
-              : " A single cell has " + std::to_string(fit.cell_mechanisms) + " of them.";
-  return text + " " + std::to_string(fit.starts_agreeing) + " of " + std::to_string(fit.starts) +
-         " random starts ended here.";
+  return text + (fit.cell_mechanisms == 0
+                     ? " A single cell has no such motion."
+                     : " A single cell has " + std::to_string(fit.cell_mechanisms) + " of them.");
 }
 
 }  // namespace fingertip::calibration::inline moduli

@@ -20,10 +20,7 @@ Material material_from(const ModuliFit& fit) {
   // What rounding adds to E/(2G) - 1 says nothing: 0.45, not 0.44999999999999996.
   material.validity.smallest_poissons_ratio = material.validity.largest_poissons_ratio =
       std::stod(rounded(fit.target.poissons_ratio(), 15));
-  material.provenance =
-      "moduli: least-squares fit of the homogenised lattice to E and G of the "
-      "rubber, " +
-      std::to_string(fit.starts) + " random starts";
+  material.provenance = "moduli: fit of the homogenised lattice to E and G of the rubber";
   material.statement =
       fit_statement(fit) +
       " For small strain and lattices weighted per cell; for another spacing k1, k2, k3 scale with "
@@ -39,11 +36,9 @@ void write_calibration_json(const ModuliFit& fit, const std::filesystem::path& f
   content.damping = {fit.target.retardation_time};
   content.target = rubber_entry(fit.target);
   content.achieved = achieved_entry(fit.achieved);
-  for (const Eigen::Vector4d& direction : fit.unidentifiable)
-    content.unidentifiable.push_back(
-        {direction(0), direction(1), direction(2), direction(3), describe_direction(direction)});
-  for (std::size_t i = 0; i < fit.residual_names.size(); ++i)
-    content.residuals[fit.residual_names[i]] = fit.residuals(Eigen::Index(i));
+  const Eigen::Vector4d& open = fit.unidentifiable;
+  content.unidentifiable = {{open(0), open(1), open(2), open(3), describe_direction(open)}};
+  content.residuals = fit.residuals;
   content.statement = fit_statement(fit);
   meshes::write_json_file(content, file);
 }

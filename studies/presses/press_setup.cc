@@ -265,8 +265,6 @@ calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::M
   calibration::ModuliFitOptions options;
   options.model = model;
   options.spacing = loaded.config.press.lattice.spacing;
-  options.starts = loaded.config.calibration.starts;
-  options.seed = loaded.config.calibration.seed;
   options.isotropy_weight = loaded.config.calibration.isotropy_weight;
   options.bulk_weight = loaded.config.calibration.bulk_weight;
   return options;

@@ -248,9 +248,9 @@ std::vector<Key> calibration_keys() {
             "weight of isotropy beside E and G for central springs", &Order::isotropy_weight),
       entry("bulk_weight", {0.0, 1e6, true},
             "weight of the bulk modulus beside E and G for central springs", &Order::bulk_weight),
-      entry("starts", {1, 1000, true}, "random starts of the fit to moduli; the best one is kept",
+      entry("starts", {1, 1000, true}, "of no effect: the fit to moduli has a closed form",
             &Order::starts),
-      entry("seed", {0, 4294967295.0, true}, "seed of the random starts", &Order::seed),
+      entry("seed", {0, 4294967295.0, true}, "seed of the random starts of laws", &Order::seed),
   };
 }
 

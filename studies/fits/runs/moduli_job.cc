@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 void run_moduli(const meshes::Rubber& rubber, const calibration::ModuliFitOptions& options,
                 const fs::path& folder, const JobContext& context) {
-  context.report(0.0, "least squares");
+  context.report(0.0, "constants");
   const calibration::ModuliFit fit = calibration::fit_moduli(rubber, options);
   calibration::write_calibration_json(fit, folder / "calibration.json");
   calibration::Material material = calibration::material_from(fit);
@@ -73,8 +73,6 @@ Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions
   job.inputs = {{"rubber", rubber_inputs(rubber, lattice::Kinematics::small)},
                 {"model", lattice::name(options.model)},
                 {"spacing", options.spacing},
-                {"starts", options.starts},
-                {"seed", options.seed},
                 {"isotropy_weight", options.isotropy_weight},
                 {"bulk_weight", options.bulk_weight}};
   job.source_hash = source_hash::calibration;

@@ -82,24 +82,6 @@ TEST(Moduli, DirectionalYoungsModulusEqualsRotatingTheStiffnessTensor) {
   EXPECT_NEAR(youngs_modulus_along(m, 5.0 * odd), youngs_modulus_along(m, odd), 1e-12);
 }
 
-TEST(Moduli, SlopesOfDirectionalYoungsModulusEqualDifferences) {
-  const Eigen::Vector3d stiffness(46.48, 12.0, 9.0);
-  const auto e = [](const Eigen::Vector3d& c, const Eigen::Vector3d& direction) {
-    return youngs_modulus_along(moduli_from_stiffness(c(0), c(1), c(2)), direction);
-  };
-  for (const Eigen::Vector3d& direction :
-       {Eigen::Vector3d(1, 0, 0), {1, 1, 0}, {1, 1, 1}, {0.3, -1.7, 0.9}}) {
-    const Eigen::RowVector3d found = fingertip::calibration::youngs_modulus_slopes(
-        moduli_from_stiffness(stiffness(0), stiffness(1), stiffness(2)), direction);
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d shift = 1e-5 * Eigen::Vector3d::Unit(i);
-      const double slope =
-          (e(stiffness + shift, direction) - e(stiffness - shift, direction)) / 2e-5;
-      EXPECT_NEAR(found(i), slope, 1e-8) << i;
-    }
-  }
-}
-
 TEST(Moduli, IsotropicStiffnessGivesTheTextbookRelations) {
   const double lambda = 84.0, g = 14.0;
   const ElasticModuli m = moduli_from_stiffness(lambda + 2.0 * g, lambda, g);
@@ -138,28 +120,6 @@ TEST(Moduli, CentralSpringsObeyTheCauchyRelationWhateverTheirConstants) {
     constants.k1 = constants.k2 + 8.0 / 3.0 * constants.k3;
     EXPECT_NEAR(homogenised_moduli(constants, a).anisotropy, 1.0, 1e-12);
     EXPECT_NEAR(homogenised_moduli(constants, a).poissons_ratio_100, 0.25, 1e-12);
-  }
-}
-
-TEST(Moduli, AnalyticJacobianEqualsCentralDifferences) {
-  std::mt19937 generator(7);
-  for (int trial = 0; trial < 5; ++trial) {
-    const SpringConstants c = random_constants(generator);
-    const Eigen::Vector4d x(c.k1, c.k2, c.k3, c.kappa);
-    const auto evaluate = [](const Eigen::Vector4d& k) {
-      const ElasticModuli m = homogenised_moduli({k(0), k(1), k(2), k(3)}, a);
-      return Eigen::Vector4d(m.youngs_modulus_100, m.shear_modulus, m.poissons_ratio_100,
-                             m.bulk_modulus);
-    };
-    const Eigen::Matrix4d analytic = fingertip::calibration::moduli_jacobian(c, a);
-    for (int j = 0; j < 4; ++j) {
-      const double step = j < 3 ? 1e-5 : 1e-5 / a;
-      const Eigen::Vector4d shift = step * Eigen::Vector4d::Unit(j);
-      const Eigen::Vector4d numeric = (evaluate(x + shift) - evaluate(x - shift)) / (2.0 * step);
-      for (int i = 0; i < 4; ++i)
-        EXPECT_NEAR(analytic(i, j), numeric(i), 1e-6 * analytic.row(i).cwiseAbs().maxCoeff())
-            << "row " << i << " column " << j;
-    }
   }
 }
 

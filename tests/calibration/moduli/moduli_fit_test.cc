@@ -33,17 +33,15 @@ Rubber rubber_of(double nu) {
   return rubber;
 }
 
-ModuliFit fit(const Rubber& rubber, ModelKind model, unsigned seed = 1) {
-  return fit_moduli(rubber, {.model = model, .spacing = a, .starts = 10, .seed = seed});
+ModuliFit fit(const Rubber& rubber, ModelKind model) {
+  return fit_moduli(rubber, {.model = model, .spacing = a});
 }
 
 class HookeanFit : public testing::TestWithParam<double> {};
 
-TEST_P(HookeanFit, ReachesEveryModulusIsotropicallyFromEveryStart) {
+TEST_P(HookeanFit, ReachesEveryModulusIsotropically) {
   const Rubber rubber = rubber_of(GetParam());
   const ModuliFit result = fit(rubber, ModelKind::hookean);
-  EXPECT_TRUE(result.converged);
-  EXPECT_EQ(result.starts_agreeing, 10);
   EXPECT_NEAR(result.achieved.youngs_modulus_100 / rubber.youngs_modulus, 1.0, 1e-9);
   EXPECT_NEAR(result.achieved.youngs_modulus_110 / rubber.youngs_modulus, 1.0, 1e-9);
   EXPECT_NEAR(result.achieved.youngs_modulus_111 / rubber.youngs_modulus, 1.0, 1e-9);
@@ -83,7 +81,6 @@ TEST(CentralFit, PapersRubberPaysForEAndGWithTheBulkModulus) {
   EXPECT_NEAR(result.achieved.c44 / gf_per_cm2, 14.0, 1e-5);
   EXPECT_EQ(result.constants.k3, 0.0);
   EXPECT_EQ(result.constants.kappa, 0.0);
-  EXPECT_EQ(result.starts_agreeing, 10);
 }
 
 // E_100 = (C11 - G)(C11 + 2G)/(C11 + G) takes every positive value for C11 > G, and then
@@ -97,7 +94,6 @@ TEST(CentralFit, AttainsEAndGOfEveryRubberWithoutMechanisms) {
     EXPECT_GT(result.constants.k1, 0.0) << nu;
     EXPECT_GT(result.constants.k2, 0.0) << nu;
     EXPECT_GE(result.constants.k3, 0.0) << nu;
-    EXPECT_EQ(result.starts_agreeing, 10) << nu;
     EXPECT_EQ(fingertip::calibration::count_mechanisms(
                   fingertip::lattice::cube_lattice(ModelKind::central, result.constants, a, 1)),
               0)
@@ -112,10 +108,9 @@ TEST(CentralFit, MatchesTheOneRubberOfNuOneQuarterCompletely) {
   EXPECT_NEAR(result.achieved.anisotropy, 1.0, 1e-9);
 }
 
-ModuliFit compromise(const Rubber& rubber, double isotropy, double bulk, unsigned seed = 1) {
+ModuliFit compromise(const Rubber& rubber, double isotropy, double bulk) {
   return fit_moduli(rubber, {.model = ModelKind::central,
                              .spacing = a,
-                             .seed = seed,
                              .isotropy_weight = isotropy,
                              .bulk_weight = bulk});
 }
@@ -160,15 +155,10 @@ TEST(CentralCompromise, IsTheLeastLossThatAnySpringsHave) {
       const Rubber rubber = rubber_of(nu);
       const ModuliFit result = compromise(rubber, isotropy, bulk);
       const Eigen::Vector2d best = least_loss(rubber, isotropy, bulk);
-      EXPECT_TRUE(result.converged);
-      EXPECT_EQ(result.starts_agreeing, 10);
       EXPECT_NEAR(result.achieved.c11 / best(0), 1.0, 1e-5);
       EXPECT_NEAR(result.achieved.c44 / best(1), 1.0, 1e-5);
       EXPECT_LE(loss(rubber, isotropy, bulk, result.achieved.c11, result.achieved.c44),
                 loss(rubber, isotropy, bulk, best(0), best(1)) * (1.0 + 1e-12));
-      ASSERT_EQ(result.unidentifiable.size(), 1U);
-      EXPECT_EQ(fingertip::calibration::describe_direction(result.unidentifiable[0]),
-                "k1 + 1, k2 - 1, k3 + 0.75");
       EXPECT_GE(std::min({result.constants.k1, result.constants.k2, result.constants.k3}), 0.0);
     }
 }
@@ -192,9 +182,10 @@ TEST(CentralCompromise, TradesMoreTheLargerTheWeight) {
   for (const double weight : {0.0, 0.05, 0.2, 1.0, 5.0}) {
     const ModuliFit volume = compromise(Rubber{}, 0.0, weight);
     EXPECT_GT(volume.achieved.bulk_modulus, bulk);
-    EXPECT_GT(volume.residuals.head<2>().norm(), error);
+    const double missed = std::hypot(*volume.residuals.find("E_100"), *volume.residuals.find("G"));
+    EXPECT_GT(missed, error);
     bulk = volume.achieved.bulk_modulus;
-    error = volume.residuals.head<2>().norm();
+    error = missed;
     const ModuliFit shape = compromise(Rubber{}, weight, 0.0);
     EXPECT_GT(shape.achieved.anisotropy, anisotropy);
     anisotropy = shape.achieved.anisotropy;
@@ -205,7 +196,7 @@ TEST(CentralCompromise, TradesMoreTheLargerTheWeight) {
 TEST(CentralCompromise, CostsNothingWhereNothingIsOutOfReach) {
   const Rubber rubber = rubber_of(0.25);
   const ModuliFit result = compromise(rubber, 1.0, 1.0);
-  EXPECT_LT(result.residuals.cwiseAbs().maxCoeff(), 1e-9);
+  for (const auto& [name, residual] : result.residuals) EXPECT_NEAR(residual, 0.0, 1e-9) << name;
   const std::string said = fit_statement(result);
   EXPECT_NE(said.find("all reached"), std::string::npos) << said;
   // hookean meets everything, so weights mean nothing to it.
@@ -217,8 +208,9 @@ TEST(CentralCompromise, CostsNothingWhereNothingIsOutOfReach) {
 
 TEST(CentralCompromise, StatementSaysWhatIsOutOfReachAndWhatWasTraded) {
   const ModuliFit result = compromise(Rubber{}, 1.0, 0.1);
-  EXPECT_EQ(result.residual_names,
-            (std::vector<std::string>{"E_100", "G", "E_110/E_100", "E_111/E_100", "K"}));
+  std::vector<std::string> names;
+  for (const auto& [name, residual] : result.residuals) names.push_back(name);
+  EXPECT_EQ(names, (std::vector<std::string>{"E_100", "G", "E_110/E_100", "E_111/E_100", "K"}));
   const std::string said = fit_statement(result);
   for (const char* words : {"Cauchy", "nu = 0.4286", "out of reach together", "(isotropy 1, bulk",
                             "E_100 = 3729.1 Pa instead of 3922.7 Pa (-4.94 %)", "Traded",
@@ -242,19 +234,16 @@ TEST(ModuliFit, FiniteCubesOfTheFittedLatticesMeasureTheTargets) {
 TEST(ModuliFit, NamesTheOneDirectionThatChangesNoModulus) {
   for (const ModelKind model : {ModelKind::hookean, ModelKind::central}) {
     const ModuliFit result = fit(Rubber{}, model);
-    ASSERT_EQ(result.unidentifiable.size(), 1u);
-    const Eigen::Vector4d expected = Eigen::Vector4d(4.0, -4.0, 3.0, 0.0) / std::sqrt(41.0);
-    EXPECT_LT((result.unidentifiable[0] - expected).norm(), 1e-9);
-    EXPECT_EQ(fingertip::calibration::describe_direction(result.unidentifiable[0]),
+    EXPECT_EQ(fingertip::calibration::describe_direction(result.unidentifiable),
               "k1 + 1, k2 - 1, k3 + 0.75");
 
-    const double t = 0.1 * result.constants.k2;
+    const Eigen::Vector4d t = 0.1 * result.constants.k2 * result.unidentifiable;
     SpringConstants moved = result.constants;
-    moved.k1 += 4.0 / 3.0 * t;
-    moved.k2 -= 4.0 / 3.0 * t;
-    moved.k3 += t;
-    EXPECT_NEAR(homogenised_moduli(moved, a).youngs_modulus_111, result.achieved.youngs_modulus_111,
-                1e-12 * result.achieved.youngs_modulus_111);
+    moved.k1 += t(0), moved.k2 += t(1), moved.k3 += t(2), moved.kappa += t(3);
+    const ElasticModuli found = homogenised_moduli(moved, a);
+    EXPECT_NEAR(found.c11, result.achieved.c11, 1e-12 * result.achieved.c11);
+    EXPECT_NEAR(found.c12, result.achieved.c12, 1e-12 * result.achieved.c11);
+    EXPECT_NEAR(found.c44, result.achieved.c44, 1e-12 * result.achieved.c11);
   }
 }
 
@@ -277,10 +266,8 @@ TEST(ModuliFit, ChosenConstantsHaveNoSoftShortWaves) {
   }
 }
 
-TEST(ModuliFit, ResultDependsNeitherOnTheSeedNorOnTheSpacing) {
-  const ModuliFit first = fit(Rubber{}, ModelKind::central, 1);
-  const ModuliFit second = fit(Rubber{}, ModelKind::central, 99);
-  EXPECT_NEAR(first.constants.k1 / second.constants.k1, 1.0, 1e-9);
+TEST(ModuliFit, ConstantsGrowWithTheSpacing) {
+  const ModuliFit first = fit(Rubber{}, ModelKind::central);
   const ModuliFit coarse = fit_moduli(Rubber{}, {.model = ModelKind::central, .spacing = 2.0 * a});
   EXPECT_NEAR(coarse.constants.k1 / first.constants.k1, 2.0, 1e-9);
   EXPECT_NEAR(coarse.constants.k2 / first.constants.k2, 2.0, 1e-9);
@@ -290,7 +277,7 @@ TEST(ModuliFit, IsQuiet) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   fit(Rubber{}, ModelKind::central);
-  fit(rubber_of(-0.9), ModelKind::hookean);
+  compromise(rubber_of(-0.9), 1.0, 1.0);
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
@@ -302,7 +289,6 @@ TEST(ModuliFit, StatementExplainsThePrice) {
   EXPECT_NE(central.find("K = 2434"), std::string::npos) << central;
   EXPECT_NE(central.find("instead of 9152.9 Pa"), std::string::npos) << central;
   EXPECT_NE(central.find("k1 + 1, k2 - 1, k3 + 0.75"), std::string::npos) << central;
-  EXPECT_NE(central.find("10 of 10 random starts"), std::string::npos) << central;
   EXPECT_NE(central.find("out of reach"), std::string::npos) << central;
   const std::string hookean = fit_statement(fit(Rubber{}, ModelKind::hookean));
   EXPECT_NE(hookean.find("every direction"), std::string::npos) << hookean;
@@ -344,9 +330,6 @@ TEST(ModuliFit, RefusesWhatItCannotFit) {
     bad.spacing = spacing;
     expect_refused(Rubber{}, bad, "lattice.spacing");
   }
-  bad = good;
-  bad.starts = 0;
-  expect_refused(Rubber{}, bad, "calibration.starts");
   Rubber too_soft_in_shear;
   too_soft_in_shear.shear_modulus = too_soft_in_shear.youngs_modulus / 3.0;
   expect_refused(too_soft_in_shear, good, "rubber.shear_modulus");
