@@ -5,7 +5,23 @@ namespace fingertip::studies::inline fits::inline models {
 using calibration::MaterialParameter;
 
 bool by_continuum(const FitInput& input) {
-  return !input.kinds.empty() && input.kinds.front() == CurveKind::continuum;
+  return !input.curves.empty() && input.curves.front().kind == CurveKind::continuum;
+}
+
+bool has_presses(const FitInput& input) {
+  using enum CurveKind;
+  const auto is_press = [](CurveKind kind) {
+    return kind == press || kind == continuum || kind == ramp || kind == moving_press;
+  };
+  return !input.curves.empty() && is_press(input.curves.front().kind);
+}
+
+bool has_travels(const FitInput& input) {
+  return !input.curves.empty() && input.curves.front().travel;
+}
+
+std::vector<calibration::Curve> curves_of(const FitInput& input) {
+  return {input.curves.begin(), input.curves.end()};
 }
 
 std::vector<MaterialParameter> parameters_of(const FitInput& input) {

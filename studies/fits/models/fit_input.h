@@ -49,21 +49,33 @@ struct Candidate {
   std::string refused;  ///< why it cannot be; empty: it can
 };
 
-/// SI. `curves`, `conditions` and `kinds` have an entry per curve; `presses` and `continua` too
-/// where these are presses.
+/// A curve of a fit and what answers for it. The continuum of a press answers for it, makes its
+/// data (y is then still empty), or can judge the lattice.
+struct FitCurve : calibration::Curve {
+  FitCurve() = default;
+  FitCurve(Curve curve) : Curve(std::move(curve)) {}
+
+  CurveKind kind = CurveKind::press;
+  std::string condition;                  ///< how it was pressed, for people
+  lattice::PressSetup press;              ///< of presses
+  fem_reference::ReferenceJob continuum;  ///< of presses
+  /// Of presses over the travel of a machine, all of a fit or none. The samples of `press` and
+  /// `continuum` then are Travel::depths.
+  std::optional<Travel> travel;
+  RowsOfValues rows;  ///< none where these are not measured
+  /// What the model may miss of the force at every sample of its press, relative. Empty: nothing.
+  std::vector<double> theory_error;
+  /// Likewise, by how much a finite law exceeds the small-strain lattice that is fitted; empty
+  /// where it is finite, and where one of the presses finds no equilibrium.
+  std::vector<double> finite_excess;
+};
+
+/// SI.
 struct FitInput {
   CalibrationProblem problem = CalibrationProblem::curve;
-  std::vector<calibration::Curve> curves;
-  std::vector<std::string> conditions;
-  std::vector<CurveKind> kinds;
-  std::vector<lattice::PressSetup> presses;
-  std::vector<fem_reference::ReferenceJob> continua;  ///< the presses of a continuum
-  /// Per curve; empty where no curve is one over the travel of a machine. The samples of `presses`
-  /// and `continua` then are Travel::depths.
-  std::vector<std::optional<Travel>> travels;
-  std::vector<RowsOfValues> rows;  ///< per curve; none where these are not measured
-  /// Of a rubber that relaxes, with places among all free parameters; curves then have times, and
-  /// an entry in `travels` each. The moduli, as of all presses here, are those after long times.
+  std::vector<FitCurve> curves;
+  /// Of a rubber that relaxes, with places among all free parameters; curves then have times and
+  /// travels. The moduli, as of all presses here, are those after long times.
   std::vector<calibration::FitBranch> branches;
   lattice::PressSetup base;   ///< of the configuration: rubber and lattice that are not sought
   bool rubber_known = false;  ///< the data were made of base.rubber
@@ -74,13 +86,7 @@ struct FitInput {
   bool scale_to_data = false;
   /// What the lattices are known to miss goes into the covariance of the forces.
   bool with_lattice_error = false;
-  /// Per curve, what the model may miss of the force at every sample of its press, relative: the
-  /// same; and what that is, for people. None: nothing.
-  std::vector<std::vector<double>> theory_error;
-  std::string theory_error_of;
-  /// Likewise, by how much a finite law exceeds the small-strain lattices that are fitted; empty
-  /// where they are finite, and where one of the presses finds no equilibrium.
-  std::vector<std::vector<double>> finite_excess;
+  std::string theory_error_of;  ///< what FitCurve::theory_error is, for people
   bool density_known = true, retardation_time_known = true;  ///< of base.rubber, for material.toml
   std::vector<std::string> profile;                          ///< two parameters, or none
   bool profile_intervals = false;                            ///< else those of the covariance
@@ -91,6 +97,13 @@ struct FitInput {
 
 /// Whether the continuum answers for the curves.
 bool by_continuum(const FitInput& input);
+
+/// Whether the curves are presses, and whether they go over the travel of a machine.
+bool has_presses(const FitInput& input);
+bool has_travels(const FitInput& input);
+
+/// The curves alone.
+std::vector<calibration::Curve> curves_of(const FitInput& input);
 
 /// Of `input.options.free`, without those of rigs and relaxation, which stand behind them.
 std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input);

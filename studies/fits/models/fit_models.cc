@@ -34,15 +34,15 @@ constexpr int ramp_samples = 40;
 
 /// What leaves out the values that lie beyond an indentation [m], as text to copy; empty where that
 /// leaves fewer than three. A press behind a rig is computed deeper than its values go.
-std::string rows_up_to(const FitInput& input, std::size_t i, double indentation) {
-  if (i >= input.rows.size()) return {};
-  const RowsOfValues& known = input.rows[i];
-  std::vector<double> depths = input.curves[i].x;
+std::string rows_up_to(const FitCurve& curve, const Eigen::VectorXd& start, double indentation) {
+  const RowsOfValues& known = curve.rows;
+  if (known.rows.empty()) return {};
+  std::vector<double> depths = curve.x;
   constexpr double margin = 0.98;  // the last step failed close by
   double reached = margin * indentation;
-  if (is_travel(input, i)) {
-    depths = input.travels[i]->indentations(input.curves[i], start_of(input.options));
-    reached *= std::ranges::max(depths) / input.travels[i]->depths.back();
+  if (curve.travel) {
+    depths = curve.travel->indentations(curve, start);
+    reached *= std::ranges::max(depths) / curve.travel->depths.back();
   }
   const auto beyond = std::ranges::find_if(depths, [&](double depth) { return depth > reached; });
   constexpr std::ptrdiff_t fewest = 3;
@@ -91,24 +91,24 @@ std::unique_ptr<ForwardModel> ramp_model(lattice::PressSetup setup, const std::v
 std::unique_ptr<ForwardModel> model_of(const FitInput& input, std::size_t i,
                                        const JobContext& context,
                                        const std::function<bool()>& go_on) {
-  const std::vector<double>& x = input.curves[i].x;
+  const FitCurve& curve = input.curves[i];
+  const std::vector<double>& x = curve.x;
   const std::vector<MaterialParameter> parameters = parameters_of(input);
-  switch (input.kinds[i]) {
+  switch (curve.kind) {
     case CurveKind::press:
-      return std::make_unique<calibration::LatticeForwardModel>(input.presses[i], parameters,
-                                                                go_on);
+      return std::make_unique<calibration::LatticeForwardModel>(curve.press, parameters, go_on);
     case CurveKind::continuum:
       return std::make_unique<calibration::ScaledModel>(continuum_model(
-          input.continua[i], parameters, fmt::format("{}_{}", input.place, i + 1), context));
+          curve.continuum, parameters, fmt::format("{}_{}", input.place, i + 1), context));
     case CurveKind::uniaxial:
       return std::make_unique<calibration::UniaxialModel>(x, parameters, input.base.rubber);
     case CurveKind::simple_shear:
       return std::make_unique<calibration::SimpleShearModel>(x, parameters, input.base.rubber);
     case CurveKind::loss_factor: return std::make_unique<calibration::LossFactorModel>(x);
     case CurveKind::creep: return std::make_unique<calibration::CreepModel>(x);
-    case CurveKind::ramp: return ramp_model(input.presses[i], x, go_on);
+    case CurveKind::ramp: return ramp_model(curve.press, x, go_on);
     case CurveKind::moving_press:
-      return std::make_unique<calibration::MovingPressModel>(input.presses[i], x);
+      return std::make_unique<calibration::MovingPressModel>(curve.press, x);
   }
   return nullptr;
 }
@@ -146,10 +146,8 @@ void start_from_data(FitInput& input, const std::vector<calibration::Curve>& cur
 }
 
 /// A curve of force over the indentations that the rig's start makes of its travels.
-calibration::Curve over_indentation(const FitInput& input, std::size_t i) {
-  const calibration::Curve& curve = input.curves[i];
-  const Eigen::VectorXd start = start_of(input.options);
-  const Travel& travel = *input.travels[i];
+calibration::Curve over_indentation(const FitCurve& curve, const Eigen::VectorXd& start) {
+  const Travel& travel = *curve.travel;
   const std::vector<double> depths = travel.indentations(curve, start);
   calibration::Curve result;
   result.name = curve.name;
@@ -166,32 +164,33 @@ calibration::Curve over_indentation(const FitInput& input, std::size_t i) {
 }  // namespace
 
 ordered_json curve_inputs(const FitInput& input, std::size_t i) {
-  const calibration::Curve& curve = input.curves[i];
+  const FitCurve& curve = input.curves[i];
   ordered_json inputs = {{"name", curve.name},
-                         {"condition", input.conditions[i]},
-                         {"kind", int(input.kinds[i])},
+                         {"condition", curve.condition},
+                         {"kind", int(curve.kind)},
                          {"quantities", {curve.x_quantity, curve.y_quantity}},
                          {"x", curve.x},
                          {"y", curve.y},
-                         {"sigma", curve.sigma}};
-  if (i < input.presses.size()) inputs["press"] = inputs_of(input.presses[i]);
+                         {"sigma", curve.sigma},
+                         {"theory_error", curve.theory_error}};
+  if (has_presses(input)) inputs["press"] = inputs_of(curve.press);
   for (const calibration::FitBranch& branch : input.branches)
     for (const calibration::FitQuantity& each : {branch.share, branch.time})
       inputs["branches"].push_back(each.place ? ordered_json{{"free", *each.place}}
                                               : ordered_json(each.value));
-  if (is_travel(input, i)) {
+  if (curve.travel) {
     inputs["time"] = curve.time;
-    inputs["machine"] = input.travels[i]->machine;
+    inputs["machine"] = curve.travel->machine;
     for (const auto member : calibration::rig_members) {
-      const calibration::RigQuantity& each = input.travels[i]->rig.*member;
+      const calibration::RigQuantity& each = curve.travel->rig.*member;
       inputs["rig"].push_back(each.place ? ordered_json{{"free", *each.place}}
                                          : ordered_json(each.value));
     }
   }
-  if (input.kinds[i] == CurveKind::continuum)
-    inputs["continuum"] = reference_job(input.continua[i]).key();
+  if (curve.kind == CurveKind::continuum)
+    inputs["continuum"] = reference_job(curve.continuum).key();
   // The ramp's lattice is static, its rubber's damping is not.
-  if (input.kinds[i] == CurveKind::ramp) inputs["speed"] = input.presses[i].protocol.speed;
+  if (curve.kind == CurveKind::ramp) inputs["speed"] = curve.press.protocol.speed;
   return inputs;
 }
 
@@ -199,24 +198,27 @@ FitModels::FitModels(const FitInput& input, const fs::path& folder, const JobCon
                      const std::function<bool()>& go_on) {
   fs::create_directories(folder / "evaluations");
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
-    const bool travel = is_travel(input, i);
-    models_.push_back(std::make_unique<MeasuredPress>(
+    const FitCurve& curve = input.curves[i];
+    Answer& answer = answers_.emplace_back();
+    answer.model = std::make_unique<MeasuredPress>(
         model_of(input, i, context, go_on),
-        [input, i](double indentation) { return rows_up_to(input, i, indentation); }));
-    remembering_.push_back(std::make_unique<calibration::RememberedModel>(
-        *models_[i], folder / "evaluations" / fmt::format("curve_{}.jsonl", i + 1),
-        Eigen::Index(travel ? input.travels[i]->depths.size() : input.curves[i].x.size()),
-        Eigen::Index(material_parameters(input)), sha256(curve_inputs(input, i).dump())));
-    if (travel)
-      rigs_.push_back(behind_rig(input, i, input.travels[i]->rig, input.curves[i],
-                                 Eigen::Index(input.options.free.size()), input.branches));
+        [curve, start = start_of(input.options)](double indentation) {
+          return rows_up_to(curve, start, indentation);
+        });
+    answer.remembered = std::make_unique<calibration::RememberedModel>(
+        *answer.model, folder / "evaluations" / fmt::format("curve_{}.jsonl", i + 1),
+        Eigen::Index(curve.travel ? curve.travel->depths.size() : curve.x.size()),
+        Eigen::Index(material_parameters(input)), sha256(curve_inputs(input, i).dump()));
+    if (curve.travel)
+      answer.rig = behind_rig(input, i, curve.travel->rig, curve,
+                              Eigen::Index(input.options.free.size()), input.branches);
   }
 }
 
 std::vector<ForwardModel*> FitModels::addresses() const {
   std::vector<ForwardModel*> result;
-  for (const auto& model : remembering_) result.push_back(model.get());
-  for (std::size_t i = 0; i < rigs_.size(); ++i) result[i] = rigs_[i].get();
+  for (const Answer& each : answers_)
+    result.push_back(each.rig ? static_cast<ForwardModel*>(each.rig.get()) : each.remembered.get());
   return result;
 }
 
@@ -224,27 +226,26 @@ std::unique_ptr<calibration::RigModel> FitModels::behind_rig(
     const FitInput& input, std::size_t i, const calibration::Rig& rig,
     const calibration::Curve& curve, Eigen::Index parameters,
     const std::vector<calibration::FitBranch>& branches) const {
-  const std::vector<double>& depths =
-      is_travel(input, i) ? input.travels[i]->depths : input.presses[i].protocol.samples;
-  return std::make_unique<calibration::RigModel>(*remembering_[i], depths,
-                                                 Eigen::Index(material_parameters(input)), rig,
-                                                 curve.x, curve.time, parameters, branches);
+  return std::make_unique<calibration::RigModel>(
+      *answers_[i].remembered, input.curves[i].press.protocol.samples,
+      Eigen::Index(material_parameters(input)), rig, curve.x, curve.time, parameters, branches);
 }
 
 Eigen::VectorXd FitModels::press_forces(std::size_t i, const Eigen::VectorXd& rubber) const {
-  return remembering_[i]->evaluate(rubber).value;
+  return answers_[i].remembered->evaluate(rubber).value;
 }
 
 std::vector<double> FitModels::indentations(std::size_t i,
                                             const Eigen::VectorXd& parameters) const {
-  if (rigs_.empty()) return {};
-  rigs_[i]->evaluate(parameters);
-  return {rigs_[i]->indentation().begin(), rigs_[i]->indentation().end()};
+  calibration::RigModel* rig = answers_[i].rig.get();
+  if (rig == nullptr) return {};
+  rig->evaluate(parameters);
+  return {rig->indentation().begin(), rig->indentation().end()};
 }
 
 void start_from_data(FitInput& input, const FitModels& models) {
-  if (input.travels.empty())
-    return start_from_data(input, input.curves, models.addresses(), input.options);
+  if (!has_travels(input))
+    return start_from_data(input, curves_of(input), models.addresses(), input.options);
   std::vector<calibration::Curve> curves;
   std::vector<std::unique_ptr<calibration::RigModel>> presses;
   std::vector<ForwardModel*> list;
@@ -254,13 +255,11 @@ void start_from_data(FitInput& input, const FitModels& models) {
   options.model_covariance = {};
   options.progress = input.options.progress;
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
-    curves.push_back(over_indentation(input, i));
-    if (curves.back().x.size() < 2) {
-      curves.pop_back();
-      continue;
-    }
+    const calibration::Curve curve = over_indentation(input.curves[i], start_of(input.options));
+    if (curve.x.size() < 2) continue;
+    curves.push_back(curve);
     presses.push_back(
-        models.behind_rig(input, i, {}, curves.back(), Eigen::Index(count),
+        models.behind_rig(input, i, {}, curve, Eigen::Index(count),
                           calibration::held_at(input.branches, start_of(input.options))));
     list.push_back(presses.back().get());
   }

@@ -42,9 +42,12 @@ class FitModels {
   std::vector<double> indentations(std::size_t i, const Eigen::VectorXd& parameters) const;
 
  private:
-  std::vector<std::unique_ptr<calibration::ForwardModel>> models_;
-  std::vector<std::unique_ptr<calibration::RememberedModel>> remembering_;
-  std::vector<std::unique_ptr<calibration::RigModel>> rigs_;  ///< per curve, or none at all
+  struct Answer {
+    std::unique_ptr<calibration::ForwardModel> model;
+    std::unique_ptr<calibration::RememberedModel> remembered;
+    std::unique_ptr<calibration::RigModel> rig;  ///< of travels
+  };
+  std::vector<Answer> answers_;  ///< per curve
 };
 
 /// Lets the search start from the scale of the data, not from the configuration's rubber: forces

@@ -92,8 +92,8 @@ Curve as_if_measured(const FitInput& input, const FitModels& models, std::size_t
   Curve curve = input.curves[i];
   const VectorXd forces = forces_at(input, models, i, curve.x, parameters);
   VectorXd told = forces;
-  if (is_travel(input, i)) {
-    const Rig& rig = input.travels[i]->rig;
+  if (input.curves[i].travel) {
+    const Rig& rig = input.curves[i].travel->rig;
     for (std::size_t k = 0; k < curve.x.size(); ++k) {
       const double force = forces(Index(k));
       curve.x[k] += rig.touch_offset.in(parameters) + rig.compliance.in(parameters)*force;
@@ -119,18 +119,20 @@ MatrixXd relative_model_error(const std::vector<lattice::PressSetup>& presses, b
 }
 
 std::vector<lattice::PressSetup> presses_of_values(const FitInput& input) {
-  std::vector<lattice::PressSetup> presses = input.presses;
-  for (std::size_t i = 0; i < presses.size(); ++i)
-    if (is_travel(input, i)) presses[i].protocol.samples = depths_of_values(input, i);
+  std::vector<lattice::PressSetup> presses;
+  for (const FitCurve& curve : input.curves) {
+    lattice::PressSetup& press = presses.emplace_back(curve.press);
+    if (curve.travel) press.protocol.samples = depths_of_values(curve, start_of(input.options));
+  }
   return presses;
 }
 
 std::vector<double> theory_at_values(const FitInput& input) {
   std::vector<double> theory;
-  for (std::size_t i = 0; i < input.theory_error.size(); ++i) {
-    const std::vector<double> curve = at_values(input, i, input.theory_error[i]);
-    theory.insert(theory.end(), curve.begin(), curve.end());
-  }
+  for (const FitCurve& curve : input.curves)
+    if (!curve.theory_error.empty())
+      std::ranges::copy(at_values(curve, start_of(input.options), curve.theory_error),
+                        std::back_inserter(theory));
   return theory;
 }
 
@@ -180,13 +182,12 @@ Joint joint_of(const FitInput& input, const FitModels& models, const VectorXd& p
   joint.jacobian.resize(0, Index(joint.free.size()));
   const auto list = models.addresses();
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
-    const Curve& curve = input.curves[i];
-    const CurveSlopes slopes = is_travel(input, i)
-                                   ? models
-                                         .behind_rig(input, i, input.travels[i]->rig, curve,
-                                                     parameters.size(), input.branches)
-                                         ->evaluate(parameters)
-                                   : list[i]->evaluate(parameters);
+    const FitCurve& curve = input.curves[i];
+    const CurveSlopes slopes = curve.travel ? models
+                                                  .behind_rig(input, i, curve.travel->rig, curve,
+                                                              parameters.size(), input.branches)
+                                                  ->evaluate(parameters)
+                                            : list[i]->evaluate(parameters);
     joint.append(slopes.jacobian,
                  curve.sigma.empty() ? VectorXd::Constant(slopes.value.size(), deviation)
                                      : vector_of(curve.sigma),
@@ -200,9 +201,8 @@ Joint joint_of(const FitInput& input, const FitModels& models, const VectorXd& p
 
 /// What is the same of a machine in the fit, if the fit seeks it.
 std::optional<Index> shared_compliance(const FitInput& input, const std::string& machine) {
-  for (std::size_t i = 0; i < input.travels.size(); ++i)
-    if (input.travels[i] && input.travels[i]->machine == machine)
-      return input.travels[i]->rig.compliance.place;
+  for (const FitCurve& curve : input.curves)
+    if (curve.travel && curve.travel->machine == machine) return curve.travel->rig.compliance.place;
   return std::nullopt;
 }
 
@@ -212,23 +212,21 @@ FitInput made_anew(const FitInput& input, double depth) {
   FitInput again;
   again.problem = input.problem;
   again.base = input.base;
-  again.presses = {input.presses.front()};
-  again.kinds = {input.kinds.front()};
-  Curve curve;
-  const std::size_t count = input.curves.front().x.size();
+  const FitCurve& first = input.curves.front();
+  FitCurve& curve = again.curves.emplace_back();
+  curve.kind = first.kind;
+  curve.press = first.press;
+  curve.travel = first.travel;
+  curve.is_travel = first.travel.has_value();
+  const std::size_t count = first.x.size();
   for (std::size_t k = 1; k <= count; ++k) curve.x.push_back(depth * double(k) / double(count));
-  const std::vector<double>& times = input.curves.front().time;
-  if (times.size() == count)
-    for (const double time : times) curve.time.push_back(time - times.front());
-  curve.is_travel = is_travel(input, 0);
-  again.curves = {curve};
+  if (first.time.size() == count)
+    for (const double time : first.time) curve.time.push_back(time - first.time.front());
   again.options.free.assign(
       input.options.free.begin(),
       input.options.free.begin() + std::ptrdiff_t(material_parameters(input)));
-  if (is_travel(input, 0)) {
-    again.travels = {input.travels.front()};
-    for (const auto member : calibration::rig_members)
-      (again.travels[0]->rig.*member).place.reset();
+  if (curve.travel) {
+    for (const auto member : calibration::rig_members) (curve.travel->rig.*member).place.reset();
     free_rigs(again);
   }
   return again;
@@ -244,8 +242,9 @@ Further further_of(const FitInput& input, const FitInput& own,
                    const std::vector<FreeParameter>& known) {
   Further further{{}, known};
   const std::size_t rubber = material_parameters(own);
+  const std::optional<Travel>& travel = own.curves.front().travel;
   const std::optional<Index> machine =
-      own.travels.empty() ? std::nullopt : shared_compliance(input, own.travels[0]->machine);
+      travel ? shared_compliance(input, travel->machine) : std::nullopt;
   for (std::size_t k = 0; k < own.options.free.size(); ++k) {
     const FreeParameter& free = own.options.free[k];
     if (k < rubber) {
@@ -270,7 +269,8 @@ Joint with_press(Joint joint, const FitInput& input, const FitInput& own, const 
     at(k) = place < parameters.size() ? parameters(place) : own.options.free[std::size_t(k)].start;
   }
   const Curve curve = as_if_measured(own, models, 0, at, noise);
-  const Rig rig = own.travels.empty() ? Rig{} : own.travels[0]->rig;
+  const std::optional<Travel>& travel = own.curves.front().travel;
+  const Rig rig = travel ? travel->rig : Rig{};
   const CurveSlopes slopes =
       models.behind_rig(own, 0, rig, at_rest(curve, curve.x), at.size())->evaluate(at);
   MatrixXd rows = MatrixXd::Zero(slopes.value.size(), Index(further.free.size()));
@@ -279,11 +279,11 @@ Joint with_press(Joint joint, const FitInput& input, const FitInput& own, const 
   joint.free = further.free;
   joint.append(rows, vector_of(curve.sigma), slopes.value);
   if (joint.lattice_error) {
-    joint.presses.push_back(own.presses.front());
+    joint.presses.push_back(own.curves.front().press);
     joint.presses.back().protocol.samples = own.curves.front().x;
   }
   if (!joint.theory.empty())
-    joint.theory.resize(std::size_t(joint.forces.size()), input.theory_error.front().back());
+    joint.theory.resize(std::size_t(joint.forces.size()), input.curves.front().theory_error.back());
   return joint;
 }
 
@@ -313,7 +313,7 @@ Outlook outlook(const FitInput& input, const FitModels& models, const VectorXd& 
   const Joint known = joint_of(input, models, parameters, deviation);
   Outlook result{known.covariance(), {}};
   const VectorXd before = result.covariance.diagonal().cwiseSqrt();
-  const Noise noise(input.curves, deviation);
+  const Noise noise(curves_of(input), deviation);
   for (const Candidate& candidate : input.candidates) {
     Prospect& prospect = result.prospects.emplace_back();
     prospect.name = candidate.name;

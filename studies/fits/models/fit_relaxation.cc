@@ -77,7 +77,7 @@ std::vector<FitBranch> branches_of(const LoadedConfig& loaded,
   return branches;
 }
 
-std::array<double, 2> observed_times(const std::vector<Curve>& curves) {
+std::array<double, 2> observed_times(const std::vector<FitCurve>& curves) {
   std::array<double, 2> all{std::numeric_limits<double>::infinity(), 0.0};
   for (const Curve& curve : curves) {
     if (curve.time.size() < 2) continue;

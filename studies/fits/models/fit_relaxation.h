@@ -30,7 +30,7 @@ std::vector<calibration::FitBranch> branches_of(
     const LoadedConfig& loaded, const std::vector<calibration::FreeParameter>& free);
 
 /// From the shortest to the longest time that the curves tell of [s].
-std::array<double, 2> observed_times(const std::vector<calibration::Curve>& curves);
+std::array<double, 2> observed_times(const std::vector<FitCurve>& curves);
 
 /// Starts and bounds of free shares and times, from the holds and times of the curves; those of
 /// branches that `loaded` gives start there.

@@ -17,22 +17,19 @@ namespace fingertip::studies::inline fits::inline models {
 namespace {
 
 /// What repeats have in common.
-std::string press_of(const FitInput& input, std::size_t i) {
-  const lattice::PressSetup& press = input.presses[i];
-  const std::string machine = is_travel(input, i) ? input.travels[i]->machine : "";
+std::string press_of(const FitCurve& curve) {
   // An indentation's machine is its own (fit_measured.cc), the press may be the same.
-  return meshes::json_of(press.geometry).dump() + "|" + input.conditions[i] + "|" +
-         (input.curves[i].is_travel ? machine : "");
+  return meshes::json_of(curve.press.geometry).dump() + "|" + curve.condition + "|" +
+         (curve.is_travel && curve.travel ? curve.travel->machine : "");
 }
 
 /// What the load cell tells without load, at every value of every curve [N].
 std::vector<Eigen::VectorXd> zeros(const FitInput& input, const Eigen::VectorXd& estimates) {
   std::vector<Eigen::VectorXd> all;
-  for (std::size_t i = 0; i < input.curves.size(); ++i) {
-    const calibration::Curve& curve = input.curves[i];
+  for (const FitCurve& curve : input.curves) {
     Eigen::VectorXd& zero = all.emplace_back(Eigen::VectorXd::Zero(Eigen::Index(curve.x.size())));
-    if (!is_travel(input, i)) continue;
-    const calibration::Rig& rig = input.travels[i]->rig;
+    if (!curve.travel) continue;
+    const calibration::Rig& rig = curve.travel->rig;
     zero.array() += rig.force_offset.in(estimates);
     for (std::size_t k = 0; k < curve.time.size(); ++k)
       zero(Eigen::Index(k)) += rig.drift.in(estimates)*curve.time[k];
@@ -44,9 +41,10 @@ std::vector<Eigen::VectorXd> zeros(const FitInput& input, const Eigen::VectorXd&
 
 std::vector<std::vector<std::size_t>> alike(const FitInput& input) {
   std::map<std::string, std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < input.presses.size(); ++i)
-    if (input.kinds[i] == CurveKind::press || input.kinds[i] == CurveKind::continuum)
-      groups[press_of(input, i)].push_back(i);
+  for (std::size_t i = 0; i < input.curves.size(); ++i)
+    if (const CurveKind kind = input.curves[i].kind;
+        kind == CurveKind::press || kind == CurveKind::continuum)
+      groups[press_of(input.curves[i])].push_back(i);
   std::vector<std::vector<std::size_t>> curves;
   for (auto& [press, group] : groups) curves.push_back(std::move(group));
   return curves;
@@ -54,14 +52,14 @@ std::vector<std::vector<std::size_t>> alike(const FitInput& input) {
 
 void share_depths(FitInput& input) {
   for (const auto& curves : alike(input)) {
-    const auto reach = [&](std::size_t i) { return input.travels[i]->depths.back(); };
-    const std::size_t deepest = *std::ranges::max_element(curves, {}, reach);
+    const auto reach = [&](std::size_t i) { return input.curves[i].travel->depths.back(); };
+    const std::vector<double> depths =
+        input.curves[*std::ranges::max_element(curves, {}, reach)].travel->depths;
     for (const std::size_t i : curves) {
-      Travel& travel = *input.travels[i];
-      travel.depths = input.travels[deepest]->depths;
-      input.presses[i].protocol.samples = travel.depths;
-      input.presses[i].protocol.depth = travel.depths.back();
-      input.continua[i].press_to(travel.depths);
+      FitCurve& curve = input.curves[i];
+      curve.travel->depths = curve.press.protocol.samples = depths;
+      curve.press.protocol.depth = depths.back();
+      curve.continuum.press_to(depths);
     }
   }
 }
@@ -72,20 +70,19 @@ std::vector<calibration::Repeats> repeats_in(const FitInput& input,
   for (std::size_t k = 0; k < input.options.free.size(); ++k)
     if (calibration::is_of_the_rig(input.options.free[k].parameter)) nuisance.push_back(k);
   std::vector<calibration::RigQuantity> touch;
-  for (std::size_t i = 0; i < input.curves.size(); ++i)
-    touch.push_back(is_travel(input, i) ? input.travels[i]->rig.touch_offset
-                                        : calibration::RigQuantity());
+  for (const FitCurve& curve : input.curves)
+    touch.push_back(curve.travel ? curve.travel->rig.touch_offset : calibration::RigQuantity());
   std::vector<calibration::Repeats> found;
   for (const auto& curves : alike(input))
     if (curves.size() > 1)
-      found.push_back(calibration::repeats_of(curves, input.curves, fit, nuisance, touch,
+      found.push_back(calibration::repeats_of(curves, curves_of(input), fit, nuisance, touch,
                                               zeros(input, fit.estimates)));
   return found;
 }
 
 calibration::CurveFit fit_apart(const FitInput& input, const calibration::CurveFit& fit,
                                 const std::vector<calibration::Repeats>& repeats) {
-  return calibration::apart(fit, repeats, input.curves, zeros(input, fit.estimates));
+  return calibration::apart(fit, repeats, curves_of(input), zeros(input, fit.estimates));
 }
 
 bool scatter(const std::vector<calibration::Repeats>& repeats) {
@@ -150,23 +147,24 @@ CurveFit fit_with_scatter(FitInput& input, const std::vector<calibration::Forwar
                           const CurveFit& first, std::vector<Repeats>& repeats) {
   constexpr int rounds = 8;
   constexpr double close = 0.01;  // of a standard error
-  const bool known = !input.curves.front().sigma.empty();
+  const std::vector<Curve> curves = curves_of(input);
+  const bool known = !curves.front().sigma.empty();
   MatrixXd& covariance = input.options.model_covariance;
   const MatrixXd base = covariance;
   CurveFit fit = first;
   MatrixXd scattered;
   for (int round = 0; round < rounds; ++round) {
     const CurveFit before = fit;
-    scattered = calibration::covariance_of(repeats, input.curves, fit, zeros(input, fit.estimates));
+    scattered = calibration::covariance_of(repeats, curves, fit, zeros(input, fit.estimates));
     covariance = base.size() == 0 ? scattered : MatrixXd(base + scattered);
     MatrixXd own = first.whitening;
     if (!known) {
       const double deviation = std::max(1.0 / fit_apart(input, fit, repeats).whitening(0, 0),
                                         1e-9 * fit.residual_deviation);
       own = MatrixXd::Identity(own.rows(), own.cols()) / deviation;
-      fit = fit_again(input, models, with_sigma(input.curves, deviation), fit, covariance);
+      fit = fit_again(input, models, with_sigma(curves, deviation), fit, covariance);
     } else {
-      fit = fit_again(input, models, input.curves, fit, covariance);
+      fit = fit_again(input, models, curves, fit, covariance);
     }
     CurveFit plain = fit;
     whiten_by(plain, own);

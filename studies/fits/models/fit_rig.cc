@@ -53,17 +53,16 @@ RigQuantity append(FitInput& input, FreeParameter free) {
 }
 
 /// What one file says of the compliance holds for all of its machine.
-void share_compliances(std::vector<std::optional<Travel>>& travels) {
+void share_compliances(std::vector<FitCurve>& curves) {
   std::map<std::string, RigSetting> known;
-  for (const std::optional<Travel>& travel : travels)
-    if (travel && travel->settings.compliance.given)
-      known.emplace(travel->machine, travel->settings.compliance);
-  for (std::optional<Travel>& travel : travels) {
-    if (!travel) continue;
-    RigSetting& own = travel->settings.compliance;
-    const auto other = known.find(travel->machine);
+  for (const FitCurve& curve : curves)
+    if (curve.travel->settings.compliance.given)
+      known.emplace(curve.travel->machine, curve.travel->settings.compliance);
+  for (FitCurve& curve : curves) {
+    RigSetting& own = curve.travel->settings.compliance;
+    const auto other = known.find(curve.travel->machine);
     if (other == known.end()) continue;
-    if (!own.given) own = other->second, travel->rig.compliance.value = own.value;
+    if (!own.given) own = other->second, curve.travel->rig.compliance.value = own.value;
     if (!same(other->second, own))
       throw InvalidInput({"calibration.rig", "two compliances",
                           "files of one machine have one compliance",
@@ -74,20 +73,16 @@ void share_compliances(std::vector<std::optional<Travel>>& travels) {
 }  // namespace
 
 void free_rigs(FitInput& input) {
-  share_compliances(input.travels);
+  share_compliances(input.curves);
   using enum MaterialParameter;
-  std::size_t count = 0;
   std::map<std::string, RigQuantity> compliances;
-  for (const auto& travel : input.travels)
-    if (travel) ++count, compliances.emplace(travel->machine, RigQuantity{});
+  for (const FitCurve& curve : input.curves) compliances[curve.travel->machine];
   const std::size_t machines = compliances.size();
   compliances.clear();
-  for (std::size_t i = 0; i < input.travels.size(); ++i) {
-    if (!input.travels[i]) continue;
-    Travel& travel = *input.travels[i];
+  for (FitCurve& curve : input.curves) {
+    Travel& travel = *curve.travel;
     const RigSettings& rig = travel.settings;
-    const Curve& curve = input.curves[i];
-    const std::string of = count > 1 ? curve.name : "";
+    const std::string of = input.curves.size() > 1 ? curve.name : "";
     if (rig.touch_offset.fitted)
       travel.rig.touch_offset =
           append(input, free_of(touch_offset, rig.touch_offset,
@@ -135,20 +130,19 @@ std::vector<calibration::RigValue> rig_values(const FitInput& input) {
   };
   // Files of one machine share what one of them says of it.
   const auto machine_given = [&](const std::string& machine) {
-    return std::ranges::any_of(input.travels, [&](const std::optional<Travel>& travel) {
-      return travel && travel->machine == machine && travel->settings.compliance.given;
+    return std::ranges::any_of(input.curves, [&](const FitCurve& curve) {
+      return curve.travel->machine == machine && curve.travel->settings.compliance.given;
     });
   };
   std::vector<std::string> machines;
   using enum MaterialParameter;
-  for (std::size_t i = 0; i < input.travels.size(); ++i) {
-    if (!is_travel(input, i)) continue;
-    const Travel& travel = *input.travels[i];
+  if (!has_travels(input)) return values;
+  for (const FitCurve& curve : input.curves) {
+    const Travel& travel = *curve.travel;
     const RigSettings& settings = travel.settings;
-    const std::string& name = input.curves[i].name;
-    add(touch_offset, name, travel.rig.touch_offset, settings.touch_offset.given);
-    add(force_offset, name, travel.rig.force_offset, settings.force_offset.given);
-    if (!input.curves[i].time.empty()) add(drift, name, travel.rig.drift, settings.drift.given);
+    add(touch_offset, curve.name, travel.rig.touch_offset, settings.touch_offset.given);
+    add(force_offset, curve.name, travel.rig.force_offset, settings.force_offset.given);
+    if (!curve.time.empty()) add(drift, curve.name, travel.rig.drift, settings.drift.given);
     if (std::ranges::find(machines, travel.machine) != machines.end()) continue;
     machines.push_back(travel.machine);
     add(compliance, travel.machine, travel.rig.compliance, machine_given(travel.machine));
@@ -156,25 +150,20 @@ std::vector<calibration::RigValue> rig_values(const FitInput& input) {
   return values;
 }
 
-std::vector<double> depths_of_values(const FitInput& input, std::size_t i) {
-  if (!is_travel(input, i)) return input.curves[i].x;
-  const Travel& travel = *input.travels[i];
-  std::vector<double> depths = travel.indentations(input.curves[i], start_of(input.options));
-  for (double& depth : depths) depth = std::max(depth, 0.01 * travel.depths.front());
+std::vector<double> depths_of_values(const FitCurve& curve, const Eigen::VectorXd& start) {
+  if (!curve.travel) return curve.x;
+  std::vector<double> depths = curve.travel->indentations(curve, start);
+  for (double& depth : depths) depth = std::max(depth, 0.01 * curve.travel->depths.front());
   return depths;
 }
 
-std::vector<double> at_values(const FitInput& input, std::size_t i,
+std::vector<double> at_values(const FitCurve& curve, const Eigen::VectorXd& start,
                               const std::vector<double>& at_samples) {
-  if (!is_travel(input, i)) return at_samples;
+  if (!curve.travel) return at_samples;
   std::vector<double> result;
-  for (const double depth : depths_of_values(input, i))
-    result.push_back(meshes::interpolated(input.travels[i]->depths, at_samples, depth));
+  for (const double depth : depths_of_values(curve, start))
+    result.push_back(meshes::interpolated(curve.travel->depths, at_samples, depth));
   return result;
-}
-
-bool is_travel(const FitInput& input, std::size_t i) {
-  return i < input.travels.size() && input.travels[i];
 }
 
 }  // namespace fingertip::studies::inline fits::inline models

@@ -24,16 +24,13 @@ std::size_t material_parameters(const FitInput& input);
 /// compliance per machine.
 std::vector<calibration::RigValue> rig_values(const FitInput& input);
 
-/// Whether curve `i` is one over travel.
-bool is_travel(const FitInput& input, std::size_t i);
-
-/// The indentations, > 0, of curve `i`'s values at the start of the search [m]: of a travel before
+/// The indentations, > 0, of a curve's values at the start of the search [m]: of a travel before
 /// touch a hundredth of the first depth that the press knows.
-std::vector<double> depths_of_values(const FitInput& input, std::size_t i);
+std::vector<double> depths_of_values(const FitCurve& curve, const Eigen::VectorXd& start);
 
-/// Of something known at the samples of press `i`, where its curve has a value: between them
+/// Of something known at the samples of a curve's press, where it has a value: between them
 /// straight, constant beyond.
-std::vector<double> at_values(const FitInput& input, std::size_t i,
+std::vector<double> at_values(const FitCurve& curve, const Eigen::VectorXd& start,
                               const std::vector<double>& at_samples);
 
 }  // namespace fingertip::studies::inline fits::inline models

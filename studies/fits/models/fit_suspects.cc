@@ -62,12 +62,12 @@ std::vector<std::vector<double>> excess_of(const FitInput& input,
                                            Eigen::VectorXd (*theory)(lattice::PressSetup)) {
   std::vector<std::vector<double>> excess;
   if_it_can_be([&] {
-    for (const lattice::PressSetup& press : input.presses) {
-      const VectorXd own = theory(press);
+    for (const FitCurve& curve : input.curves) {
+      const VectorXd own = theory(curve.press);
       excess.emplace_back(own.begin(), own.end());
     }
   });
-  if (excess.size() != input.presses.size()) excess.clear();
+  if (excess.size() != input.curves.size()) excess.clear();
   return excess;
 }
 
@@ -82,11 +82,12 @@ struct Excess {
 /// What a small-strain fit leaves out, and what the other contact would change.
 std::vector<Excess> excesses_of(const FitInput& input) {
   std::vector<Excess> excesses;
-  const auto& finite = input.finite_excess;
-  if (!finite.empty() && input.theory_error != finite)
+  std::vector<std::vector<double>> finite;
+  for (const FitCurve& curve : input.curves) finite.push_back(curve.finite_excess);
+  if (!finite.front().empty() && input.curves.front().theory_error != finite.front())
     excesses.push_back({"finite strain",
                         "the data go beyond small strain (leave lattice.kinematics out)", finite});
-  const bool slips = input.presses.front().protocol.contact != meshes::ContactMode::stick;
+  const bool slips = input.curves.front().press.protocol.contact != meshes::ContactMode::stick;
   auto other = excess_of(input, calibration::excess_of_other_contact);
   if (!other.empty())
     excesses.push_back({slips ? "sticking" : "slip",
@@ -165,7 +166,7 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
                                        const calibration::CurveFitOptions& options,
                                        const FitModels& models, bool scatter) {
   std::vector<Accusation> found;
-  if (input.problem != CalibrationProblem::experiment || input.presses.empty()) return found;
+  if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return found;
   const Stack stack = stacked(input, fit);
   std::vector<Suspect> suspects;
   for (const Excess& excess : excesses_of(input)) {
@@ -173,7 +174,8 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
                                                      VectorXd::Zero(stack.values), 0.0, most_excess,
                                                      "what coarse lattices compute for it"});
     for (std::size_t i = 0; i < input.curves.size(); ++i) {
-      const std::vector<double> relative = at_values(input, i, excess.at_samples[i]);
+      const std::vector<double> relative =
+          at_values(input.curves[i], start_of(input.options), excess.at_samples[i]);
       suspect.change.segment(stack.first[i], Index(relative.size())) =
           stack.fitted[i].cwiseProduct(VectorXd::Map(relative.data(), Index(relative.size())));
     }

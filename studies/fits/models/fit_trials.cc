@@ -69,8 +69,8 @@ Suspect suspect_of(const Freed& freed) {
 }
 
 /// Whether the fit seeks that of `rig_parameters` itself.
-bool is_fitted(const FitInput& input, std::size_t i, std::size_t k) {
-  return is_travel(input, i) && (input.travels[i]->rig.*rig_members[k]).place;
+bool is_fitted(const FitCurve& curve, std::size_t k) {
+  return curve.travel && (curve.travel->rig.*rig_members[k]).place;
 }
 
 /// The press of a rubber that is found, times a factor, that of a place among the parameters.
@@ -111,20 +111,20 @@ std::vector<Freed> held_by(const FitInput& input, bool scatter) {
   const std::size_t curves = input.curves.size();
   std::map<std::string, std::vector<std::size_t>> machines;
   for (std::size_t i = 0; i < curves; ++i)
-    machines[is_travel(input, i) ? input.travels[i]->machine : ""].push_back(i);
+    machines[input.curves[i].travel ? input.curves[i].travel->machine : ""].push_back(i);
   for (std::size_t k = 0; k < rig_members.size(); ++k) {
     if (rig_parameters[k] == MaterialParameter::compliance) {
       for (const auto& [machine, which] : machines)
         for (const bool stiffens : {false, true})
-          if (!is_fitted(input, which.front(), k))
+          if (!is_fitted(input.curves[which.front()], k))
             held.push_back({k, machines.size() == 1 ? "" : machine, which, stiffens});
       continue;
     }
     for (std::size_t i = 0; i < curves; ++i) {
-      const bool no_times =
-          rig_parameters[k] == MaterialParameter::drift && input.curves[i].time.empty();
-      if (!no_times && !is_fitted(input, i, k))
-        held.push_back({k, curves == 1 ? "" : input.curves[i].name, {i}});
+      const FitCurve& curve = input.curves[i];
+      const bool no_times = rig_parameters[k] == MaterialParameter::drift && curve.time.empty();
+      if (!no_times && !is_fitted(curve, k))
+        held.push_back({k, curves == 1 ? "" : curve.name, {i}});
     }
   }
   if (!scatter) add_rubbers(input, held);
@@ -177,11 +177,11 @@ FreeParameter Trials::parameter_of(const Freed& freed) const {
   FreeParameter free{.parameter = rig_parameters[freed.kind]};
   double reach = 0.0, force = 0.0, span = 0.0;
   for (const std::size_t i : freed.curves) {
-    const Curve& curve = input_.curves[i];
+    const FitCurve& curve = input_.curves[i];
     reach = std::max(reach, curve.x.back() - curve.x.front());
     force = std::max(force, *std::ranges::max_element(curve.y));
     if (!curve.time.empty()) span = std::max(span, curve.time.back() - curve.time.front());
-    if (is_travel(input_, i)) free.start = (input_.travels[i]->rig.*rig_members[freed.kind]).value;
+    if (curve.travel) free.start = (curve.travel->rig.*rig_members[freed.kind]).value;
   }
   const double scales[] = {reach, reach / force, force, force / std::max(span, 1e-9)};
   free.scale = scales[freed.kind];
@@ -210,8 +210,8 @@ CurveFit Trials::fitted(const std::vector<Freed>& freed) {
     for (auto* place : {&branch.share.place, &branch.time.place})
       if (*place) **place -= shift;
   for (std::size_t i = 0; i < input_.curves.size(); ++i) {
-    const bool travel = is_travel(input_, i);
-    Rig rig = travel ? input_.travels[i]->rig : Rig{};
+    const FitCurve& curve = input_.curves[i];
+    Rig rig = curve.travel ? curve.travel->rig : Rig{};
     for (const auto member : rig_members)
       if (auto& place = (rig.*member).place) place = *place - shift;
     Index scale = scales_ == 1 ? 0 : Index(i);
@@ -225,12 +225,12 @@ CurveFit Trials::fitted(const std::vector<Freed>& freed) {
         (rig.*rig_members[each.kind]).place = own;
     }
     presses.emplace_back(forces_[i], scale);
-    models.push_back(std::make_unique<calibration::RigModel>(
-        presses.back(), travel ? input_.travels[i]->depths : input_.presses[i].protocol.samples,
-        scales, rig, input_.curves[i].x, input_.curves[i].time, count, branches));
+    models.push_back(
+        std::make_unique<calibration::RigModel>(presses.back(), curve.press.protocol.samples,
+                                                scales, rig, curve.x, curve.time, count, branches));
     list.push_back(models.back().get());
   }
-  return calibration::fit_curves(input_.curves, list, options);
+  return calibration::fit_curves(curves_of(input_), list, options);
 }
 
 }  // namespace fingertip::studies::inline fits::inline models

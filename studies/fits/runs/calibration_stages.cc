@@ -7,6 +7,7 @@
 
 #include "calibration/moduli/result_io.h"
 #include "meshes/press/press_response.h"
+#include "studies/files/read_fields.h"
 #include "studies/fits/models/fit_relaxation.h"
 #include "studies/fits/runs/fit_bias.h"
 #include "studies/fits/runs/fit_contact.h"
@@ -25,7 +26,7 @@ namespace fingertip::studies::inline fits::inline runs {
 namespace {
 
 namespace fs = std::filesystem;
-using calibration::MaterialParameter;
+using calibration::FitFile;
 using meshes::PressResponse;
 using nlohmann::ordered_json;
 
@@ -50,12 +51,9 @@ const meshes::PressSample& sample_near(const PressResponse& response, double dep
   });
 }
 
-Eigen::MatrixXd matrix_of(const ordered_json& rows) {
-  Eigen::MatrixXd matrix(Eigen::Index(rows.size()), Eigen::Index(rows.size()));
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-      matrix(i, j) = number_of(rows[std::size_t(i)][std::size_t(j)]);
-  return matrix;
+FitFile read_fit(const fs::path& folder) {
+  const fs::path file = folder / "calibration.json";
+  return struct_of<FitFile>(JsonEntry(read_json(file), file));
 }
 
 void check_moduli(const LoadedConfig& loaded) {
@@ -116,7 +114,8 @@ double CalibrationStages::later_weight() const {
   if (stage_ > Stage::follow_up) return weight;
   if (loaded_.config.calibration.surrogate) weight += surrogate_weight;
   if (measures_bias())
-    for (const auto& reference : setup_.input.continua) weight += reference_job(reference).weight;
+    for (const FitCurve& curve : setup_.input.curves)
+      weight += reference_job(curve.continuum).weight;
   return weight;
 }
 
@@ -124,9 +123,9 @@ std::vector<PlannedJob> CalibrationStages::data_jobs() {
   std::vector<PlannedJob> jobs;
   if (by_moduli()) return jobs;
   if (!setup_.data_from_continuum) return jobs;
-  for (const fem_reference::ReferenceJob& reference : setup_.input.continua)
+  for (const FitCurve& curve : setup_.input.curves)
     jobs.push_back(
-        {place("reference_" + std::to_string(jobs.size() + 1)), reference_job(reference)});
+        {place("reference_" + std::to_string(jobs.size() + 1)), reference_job(curve.continuum)});
   return jobs;
 }
 
@@ -195,7 +194,7 @@ bool CalibrationStages::measures_bias() const {
 }
 
 PlannedJob CalibrationStages::bias(const fs::path& run, std::size_t curve) const {
-  fem_reference::ReferenceJob reference = setup_.input.continua[curve];
+  fem_reference::ReferenceJob reference = setup_.input.curves[curve].continuum;
   const calibration::Material found = material(run);
   reference.rubber.youngs_modulus = found.rubber.youngs_modulus;
   reference.rubber.shear_modulus = found.rubber.shear_modulus;
@@ -209,7 +208,7 @@ std::vector<PlannedJob> CalibrationStages::follow_up_jobs(const fs::path& run) {
   if (!usable(run)) return jobs;
   if (loaded_.config.calibration.surrogate) jobs.push_back(surrogate(run));
   if (measures_bias())
-    for (std::size_t i = 0; i < setup_.input.continua.size(); ++i) jobs.push_back(bias(run, i));
+    for (std::size_t i = 0; i < setup_.input.curves.size(); ++i) jobs.push_back(bias(run, i));
   return jobs;
 }
 
@@ -224,16 +223,17 @@ PlannedJob CalibrationStages::surrogate(const fs::path& run) const {
   setup.lattice.contact_stiffness = found.contact_stiffness;
   ForceUncertainty uncertainty;
   uncertainty.model_error = loaded_.config.calibration.model_error;
-  const bool by_press = !by_moduli() && !setup_.input.presses.empty() &&
+  const bool by_press = !by_moduli() && has_presses(setup_.input) &&
                         setup_.input.problem != CalibrationProblem::damping;
   if (by_press) {
-    const ordered_json fit = read_json(run / place(fit_name_) / "calibration.json");
+    const FitFile fit = read_fit(run / place(fit_name_));
     uncertainty.parameters = parameters_of(setup_.input);
-    // As wide as the intervals.
-    uncertainty.covariance = std::pow(fit.at("birge_ratio").get<double>(), 2) *
-                             matrix_of(fit.at("covariance"))
-                                 .topLeftCorner(Eigen::Index(uncertainty.parameters.size()),
-                                                Eigen::Index(uncertainty.parameters.size()));
+    const auto count = Eigen::Index(uncertainty.parameters.size());
+    uncertainty.covariance.resize(count, count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      uncertainty.covariance.row(i) =
+          Eigen::RowVectorXd::Map(fit.covariance[std::size_t(i)].data(), count);
+    uncertainty.covariance *= std::pow(fit.birge_ratio, 2);  // as wide as the intervals
   }
   return {place("surrogate"), surrogate_job(setup, uncertainty), false};
 }
@@ -250,19 +250,15 @@ bool CalibrationStages::usable(const fs::path& run) const {
          (failed_ == Failed::kept || calibration::read_material_toml(estimates).rejected.empty());
 }
 
-nlohmann::ordered_json CalibrationStages::with_bias(nlohmann::ordered_json calibration,
-                                                    const fs::path& run) const {
+void CalibrationStages::add_biases(FitFile& fit, const fs::path& run) const {
   std::vector<double> error;
   for (std::size_t i = 0; i < setup_.input.curves.size(); ++i) {
     const fs::path folder = run / place("bias_" + std::to_string(i + 1));
-    const Eigen::VectorXd own = lattice_error(
-        setup_.input.curves[i], calibration["residuals"][i].get<std::vector<double>>(),
-        PressResponse::read_csv(folder / "response.csv"));
+    const Eigen::VectorXd own = lattice_error(setup_.input.curves[i], fit.residuals[i],
+                                              PressResponse::read_csv(folder / "response.csv"));
     error.insert(error.end(), own.begin(), own.end());
   }
-  add_bias(Eigen::Map<const Eigen::VectorXd>(error.data(), Eigen::Index(error.size())),
-           calibration);
-  return calibration;
+  add_bias(Eigen::VectorXd::Map(error.data(), Eigen::Index(error.size())), fit);
 }
 
 /// The fit to moduli knows neither the finger nor what of the rubber is only a default.
@@ -288,17 +284,16 @@ void CalibrationStages::finish(const fs::path& run) const {
       copy(fit_name_, estimates_name, "material.toml");
     else
       fs::remove(target / "material.toml");  // of an earlier attempt
-    ordered_json calibration = read_json(run / place(fit_name_) / "calibration.json");
+    FitFile fit = read_fit(run / place(fit_name_));
+    if (use && measures_bias()) add_biases(fit, run);
+    const fs::path other = run / place(other_contact_name);
+    if (other_contact_ && fs::exists(other / "calibration.json"))
+      add_other_contact(read_fit(other), contact_name(setup_), contact_name(*other_contact_), fit);
+    fit.statement += contact_note_;
     ordered_json summary = read_json(run / place(fit_name_) / "summary.json");
-    if (use && measures_bias()) calibration = with_bias(std::move(calibration), run);
-    const fs::path other = run / place(other_contact_name) / "calibration.json";
-    if (other_contact_ && fs::exists(other))
-      add_other_contact(read_json(other), contact_name(setup_), contact_name(*other_contact_),
-                        calibration);
-    calibration["statement"] = calibration["statement"].get<std::string>() + contact_note_;
-    summary["statement"] = calibration["statement"];
+    summary["statement"] = fit.statement;
     write_json(summary, target / "summary.json");
-    write_json(calibration, target / "calibration.json");
+    meshes::write_json_file(fit, target / "calibration.json");
   }
   if (use && loaded_.config.calibration.surrogate)
     for (const char* file : {"surrogate.csv", "surrogate.json"}) copy("surrogate", file, file);

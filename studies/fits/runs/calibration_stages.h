@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/fit_file.h"
 #include "calibration/material/material.h"
 #include "studies/config/loader.h"
 #include "studies/fits/setup/fit_setup.h"
@@ -59,8 +60,7 @@ class CalibrationStages {
   PlannedJob surrogate(const std::filesystem::path& run) const;
   PlannedJob bias(const std::filesystem::path& run, std::size_t curve) const;
   bool measures_bias() const;
-  nlohmann::ordered_json with_bias(nlohmann::ordered_json calibration,
-                                   const std::filesystem::path& run) const;
+  void add_biases(calibration::FitFile& fit, const std::filesystem::path& run) const;
   void complete_moduli(const std::filesystem::path& file) const;
   void finish(const std::filesystem::path& run) const;
 

@@ -6,28 +6,22 @@
 
 #include "calibration/files/words.h"
 #include "meshes/tables/interpolation.h"
-#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies::inline fits::inline runs {
 
 using Eigen::Index;
-using nlohmann::ordered_json;
 
 namespace {
 
-std::string statement(const ordered_json& parameters) {
+std::string statement(const std::vector<calibration::ParameterEntry>& parameters) {
   std::string text =
       " The lattice's own error, measured by the continuum at the estimates, shifts them; with that"
       " the 95 % intervals are";
-  for (const ordered_json& parameter : parameters) {
-    const std::string unit = parameter["unit"];
-    text += fmt::format("{} {} {} to {} (shifted by {:+.2g} %)",
-                        &parameter == &parameters.front() ? "" : ",",
-                        parameter["name"].get<std::string>(),
-                        calibration::quantity_text(number_of(parameter["lower"]), unit),
-                        calibration::quantity_text(number_of(parameter["upper"]), unit),
-                        100.0 * number_of(parameter["bias"]) / number_of(parameter["estimate"]));
-  }
+  for (const calibration::ParameterEntry& each : parameters)
+    text += fmt::format(
+        "{} {} {} to {} (shifted by {:+.2g} %)", &each == &parameters.front() ? "" : ",", each.name,
+        calibration::quantity_text(each.lower, each.unit),
+        calibration::quantity_text(each.upper, each.unit), 100.0 * each.bias / each.estimate);
   return text + ".";
 }
 
@@ -49,17 +43,14 @@ Eigen::VectorXd lattice_error(const calibration::Curve& curve, const std::vector
   return error;
 }
 
-void add_bias(const Eigen::VectorXd& error, ordered_json& calibration) {
-  ordered_json& parameters = calibration["parameters"];
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    const auto row = calibration["influence"][p].get<std::vector<double>>();
-    const double bias = -Eigen::Map<const Eigen::VectorXd>(row.data(), error.size()).dot(error);
-    ordered_json& parameter = parameters[p];
-    parameter["bias"] = bias;
-    parameter["lower"] = number_or_null(number_of(parameter["lower"]) - std::abs(bias));
-    parameter["upper"] = number_or_null(number_of(parameter["upper"]) + std::abs(bias));
+void add_bias(const Eigen::VectorXd& error, calibration::FitFile& fit) {
+  for (std::size_t p = 0; p < fit.parameters.size(); ++p) {
+    calibration::ParameterEntry& parameter = fit.parameters[p];
+    parameter.bias = -Eigen::VectorXd::Map(fit.influence[p].data(), error.size()).dot(error);
+    parameter.lower -= std::abs(parameter.bias);
+    parameter.upper += std::abs(parameter.bias);
   }
-  calibration["statement"] = calibration["statement"].get<std::string>() + statement(parameters);
+  fit.statement += statement(fit.parameters);
 }
 
 }  // namespace fingertip::studies::inline fits::inline runs

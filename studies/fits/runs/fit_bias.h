@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "calibration/files/fit_file.h"
 #include "calibration/statistics/curve.h"
 #include "meshes/press/press_response.h"
 
@@ -16,9 +16,8 @@ namespace fingertip::studies::inline fits::inline runs {
 Eigen::VectorXd lattice_error(const calibration::Curve& curve, const std::vector<double>& residuals,
                               const meshes::PressResponse& continuum);
 
-/// Adds to a calibration.json, as fit_job wrote it, every parameter's bias: -influence times
-/// `error` (of all curves, one below the other). Intervals widen by its magnitude to both sides,
-/// and the statement says so.
-void add_bias(const Eigen::VectorXd& error, nlohmann::ordered_json& calibration);
+/// Adds to a fit every parameter's bias: -influence times `error` (of all curves, one below the
+/// other). Intervals widen by its magnitude to both sides, and the statement says so.
+void add_bias(const Eigen::VectorXd& error, calibration::FitFile& fit);
 
 }  // namespace fingertip::studies::inline fits::inline runs

@@ -1,10 +1,10 @@
 /// A contact that nobody told: the fit with the other one beside that with the default.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "calibration/files/fit_file.h"
 #include "studies/fits/setup/fit_setup.h"
 
 namespace fingertip::studies::inline fits::inline runs {
@@ -17,9 +17,9 @@ std::optional<FitSetup> with_other_contact(const FitSetup& fit);
 /// "stick" or "frictionless": what presses are done with that do not say it.
 std::string contact_name(const FitSetup& fit);
 
-/// Adds `other`, a calibration.json with the other contact, to `calibration`: the entry contact,
-/// 95 % intervals that cover both, and words on the difference.
-void add_other_contact(const nlohmann::ordered_json& other, const std::string& taken,
-                       const std::string& name, nlohmann::ordered_json& calibration);
+/// Adds `other`, the fit with the other contact, to `fit`: the entry contact, 95 % intervals that
+/// cover both, and words on the difference.
+void add_other_contact(const calibration::FitFile& other, const std::string& taken,
+                       const std::string& name, calibration::FitFile& fit);
 
 }  // namespace fingertip::studies::inline fits::inline runs

@@ -46,7 +46,7 @@ void add_profile(const FitInput& input, const std::vector<ForwardModel*>& models
   };
   const std::size_t first = place(input.profile[0]), second = place(input.profile[1]);
   calibration::ProfileOptions grid;
-  if (input.presses.empty() || by_continuum(input)) grid.points = fine_grid;
+  if (!has_presses(input) || by_continuum(input)) grid.points = fine_grid;
   record.profile = calibration::profile_likelihood(record.curves, models, record.options,
                                                    record.fit, first, second, grid);
   record.profile_first = record.fit.parameters[first];
@@ -74,7 +74,7 @@ void write(const calibration::FitRecord& record, const fs::path& folder) {
 
 std::string model_error_words(const FitInput& input) {
   std::string words = input.with_lattice_error ? "the known error of the lattice" : "";
-  if (!input.theory_error.empty())
+  if (!input.theory_error_of.empty())
     words += std::string(words.empty() ? "" : " and ") + input.theory_error_of;
   return words;
 }
@@ -82,11 +82,9 @@ std::string model_error_words(const FitInput& input) {
 calibration::FitRecord described(const FitInput& input) {
   calibration::FitRecord record;
   record.problem = name(input.problem);
-  record.forward = by_continuum(input)     ? "continuum"
-                   : input.presses.empty() ? "formula"
-                                           : "lattice";
-  record.curves = input.curves;
-  record.conditions = input.conditions;
+  record.forward = by_continuum(input) ? "continuum" : has_presses(input) ? "lattice" : "formula";
+  record.curves = curves_of(input);
+  for (const FitCurve& curve : input.curves) record.conditions.push_back(curve.condition);
   record.model_error = model_error_words(input);
   if (!input.branches.empty()) record.observed_times = observed_times(input.curves);
   if (input.rubber_known) record.target = input.base.rubber;
@@ -106,8 +104,7 @@ void put_model_error(FitInput& input, const Eigen::VectorXd& forces) {
 
 Eigen::VectorXd measured_values(const FitInput& input) {
   std::vector<double> all;
-  for (const calibration::Curve& curve : input.curves)
-    all.insert(all.end(), curve.y.begin(), curve.y.end());
+  for (const FitCurve& curve : input.curves) all.insert(all.end(), curve.y.begin(), curve.y.end());
   return Eigen::VectorXd::Map(all.data(), Eigen::Index(all.size()));
 }
 
@@ -127,11 +124,11 @@ Eigen::VectorXd values_at_start(const FitInput& input, const std::vector<Forward
 /// model make it. Errors are relative to forces: at first to those measured, then, lest noise weigh
 /// itself, to those of the start.
 calibration::CurveFit search(FitInput& input, const FitModels& models) {
-  const bool errors = input.with_lattice_error || !input.theory_error.empty();
+  const bool errors = input.with_lattice_error || !input.theory_error_of.empty();
   if (errors) put_model_error(input, measured_values(input));
   start_from_data(input, models);
   if (errors) put_model_error(input, values_at_start(input, models.addresses()));
-  return calibration::fit_curves(input.curves, models.addresses(), input.options);
+  return calibration::fit_curves(curves_of(input), models.addresses(), input.options);
 }
 
 void run_fit(FitInput input, const fs::path& folder, const JobContext& context) {
@@ -160,7 +157,7 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   const calibration::CurveFit own = add_scatter_and_intervals(input, list, record);
   stage = "curves left out";
   if (input.curves.size() > 1)
-    record.left_out = calibration::leave_one_out(input.curves, list, record.options, record.fit);
+    record.left_out = calibration::leave_one_out(record.curves, list, record.options, record.fit);
   stage = "profile";
   if (!input.profile.empty()) add_profile(input, list, record);
   stage = "lack of fit";
@@ -174,7 +171,7 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
                 })
             .prospects;
   record.rig = rig_values(input);
-  for (std::size_t i = 0; i < input.travels.size(); ++i)
+  for (std::size_t i = 0; has_travels(input) && i < input.curves.size(); ++i)
     record.indentation.push_back(models.indentations(i, record.fit.estimates));
   record.material = material_of(input, record);
   record.wall_time =
@@ -198,7 +195,6 @@ ordered_json fit_inputs(const FitInput& input) {
       {"profile_intervals", input.profile_intervals},
       {"scale_to_data", input.scale_to_data},
       {"lattice_error", input.with_lattice_error},
-      {"theory_error", input.theory_error},
       {"evaluations", input.options.max_evaluations},
       {"poissons_ratios",
        {input.options.lowest_poissons_ratio, input.options.highest_poissons_ratio}},

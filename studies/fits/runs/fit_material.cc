@@ -35,31 +35,26 @@ lattice::PressSetup fitted_setup(const FitInput& input, const Eigen::VectorXd& e
   return setup;
 }
 
-/// The deepest press, if there was any.
-const lattice::PressSetup* deepest(const FitInput& input) {
-  const auto relative = [](const lattice::PressSetup& setup) {
-    return setup.protocol.samples.back() / setup.geometry.thickness();
-  };
-  const auto found = std::ranges::max_element(input.presses, {}, relative);
-  return found == input.presses.end() ? nullptr : &*found;
-}
-
 calibration::Validity validity_of(const FitInput& input, const calibration::FitRecord& record) {
   calibration::Validity validity;
-  const lattice::PressSetup* press = deepest(input);
-  if (press == nullptr) return validity;
-  validity.largest_indentation = press->protocol.samples.back();
-  validity.thickness = press->geometry.thickness();
-  if (press->geometry.is_dome())
-    validity.rod_ratio = press->geometry.rod_radius / press->geometry.tip_radius;
+  if (!has_presses(input)) return validity;
+  const lattice::PressSetup& press =
+      std::ranges::max_element(input.curves, {}, [](const FitCurve& curve) {
+        return curve.press.protocol.samples.back() / curve.press.geometry.thickness();
+      })->press;
+  validity.largest_indentation = press.protocol.samples.back();
+  validity.thickness = press.geometry.thickness();
+  if (press.geometry.is_dome())
+    validity.rod_ratio = press.geometry.rod_radius / press.geometry.tip_radius;
   // Of what a lattice makes of the rubber a fit of the continuum knows nothing.
   if (!by_continuum(input)) {
-    validity.smallest_spacing = validity.largest_spacing = press->lattice.spacing;
+    validity.smallest_spacing = validity.largest_spacing = press.lattice.spacing;
     validity.model_error = calibration::worst_relative_residual(record);
   }
-  for (const lattice::PressSetup& other : input.presses)
-    if (std::ranges::find(validity.contacts, other.protocol.contact) == validity.contacts.end())
-      validity.contacts.push_back(other.protocol.contact);
+  for (const FitCurve& curve : input.curves)
+    if (const auto contact = curve.press.protocol.contact;
+        std::ranges::find(validity.contacts, contact) == validity.contacts.end())
+      validity.contacts.push_back(contact);
   return validity;
 }
 

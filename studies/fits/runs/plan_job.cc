@@ -42,7 +42,7 @@ constexpr auto fields_of(const PlannedRow*) {
 
 void write_rows_of(const FitInput& input, const fs::path& file) {
   std::vector<PlannedRow> rows;
-  for (const calibration::Curve& curve : input.curves)
+  for (const FitCurve& curve : input.curves)
     for (std::size_t i = 0; i < curve.x.size(); ++i)
       rows.push_back({curve.name, curve.x[i], curve.y[i], curve.sigma[i]});
   meshes::write_rows(rows, file);
@@ -85,9 +85,9 @@ PlanFile file_of(const FitInput& input, const PlannedNoise& noise, const VectorX
   plan.noise = noise.relative;
   plan.noise_force = noise.absolute;
   plan.rubber = calibration::rubber_entry(input.base.rubber);
-  for (std::size_t i = 0; i < input.curves.size(); ++i)
-    plan.presses.push_back({input.curves[i].name, input.conditions[i], input.curves[i].x.size(),
-                            depths_of_values(input, i).back(), input.curves[i].y.back()});
+  for (const FitCurve& curve : input.curves)
+    plan.presses.push_back({curve.name, curve.condition, curve.x.size(),
+                            depths_of_values(curve, at).back(), curve.y.back()});
   std::vector<std::string> labels;
   // 95 %, as a fit to such data would have it.
   const VectorXd error = found.covariance.diagonal().cwiseSqrt(),
@@ -128,7 +128,8 @@ void run_plan(FitInput input, const PlannedNoise& noise, const fs::path& folder,
   const VectorXd at = start_of(input.options);
   const Noise stated(noise.relative, noise.absolute);
   for (std::size_t i = 0; i < input.curves.size(); ++i)
-    input.curves[i] = as_if_measured(input, models, i, at, stated);
+    static_cast<calibration::Curve&>(input.curves[i]) =
+        as_if_measured(input, models, i, at, stated);
   const Outlook found =
       outlook(input, models, at, 0.0, folder, context, [&](double done, const std::string& name) {
         share = 0.5 + 0.5 * done;

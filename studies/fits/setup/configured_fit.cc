@@ -56,14 +56,12 @@ void check_data(const LoadedConfig& loaded) {
 
 /// What a model would refuse is said before the continuum runs for it.
 void check_models(const LoadedConfig& loaded, const FitInput& input) {
-  for (std::size_t i = 0; i < input.kinds.size(); ++i) {
-    const bool lattice = input.kinds[i] == CurveKind::press;
-    if (!lattice && input.kinds[i] != CurveKind::continuum) continue;
+  for (const FitCurve& curve : input.curves) {
     try {
-      if (lattice)
-        calibration::LatticeForwardModel(input.presses[i], parameters_of(input));
-      else
-        continuum_model(input.continua[i], parameters_of(input), "", {});
+      if (curve.kind == CurveKind::press)
+        calibration::LatticeForwardModel(curve.press, parameters_of(input));
+      else if (curve.kind == CurveKind::continuum)
+        continuum_model(curve.continuum, parameters_of(input), "", {});
     } catch (const meshes::InvalidInput& error) {
       std::vector<meshes::Violation> broken = error.violations();
       for (meshes::Violation& violation : broken)
@@ -108,6 +106,11 @@ bool has_profile_intervals(const CalibrationSettings& wanted, const FitInput& in
   if (wanted.problem != CalibrationProblem::experiment) return false;
   if (wanted.intervals != IntervalKind::automatic) return wanted.intervals == IntervalKind::profile;
   return asks_one_press(input);
+}
+
+/// Whether a lattice answers for it, pressed anew for every set of parameters.
+bool is_lattice(const FitCurve& curve) {
+  return curve.kind == CurveKind::press || curve.kind == CurveKind::moving_press;
 }
 
 /// Where the presses of a fit come from.
@@ -156,14 +159,13 @@ FitSetup assembled(const LoadedConfig& given, Presses presses) {
   fit.input.profile_intervals = has_profile_intervals(wanted, fit.input);
   check_models(loaded, fit.input);
   // A reference ends where every force is known that well.
-  if (by_continuum(fit.input)) fit.input.theory_error_of = "the continuum's tolerance";
-  if (by_continuum(fit.input))
-    for (const lattice::PressSetup& press : fit.input.presses)
-      fit.input.theory_error.emplace_back(press.protocol.samples.size(),
-                                          loaded.config.reference.tolerance);
-  fit.input.with_lattice_error = std::ranges::all_of(fit.input.kinds, [](CurveKind kind) {
-    return kind == CurveKind::press || kind == CurveKind::moving_press;
-  });
+  if (by_continuum(fit.input)) {
+    fit.input.theory_error_of = "the continuum's tolerance";
+    for (FitCurve& curve : fit.input.curves)
+      curve.theory_error.assign(curve.press.protocol.samples.size(),
+                                loaded.config.reference.tolerance);
+  }
+  fit.input.with_lattice_error = std::ranges::all_of(fit.input.curves, is_lattice);
   fit.loaded = given;
   return fit;
 }
@@ -186,7 +188,7 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit, Presses p
   for (std::size_t i = 0; i < excess.size(); ++i)
     if (std::abs(excess[i].back()) > std::abs(most)) {
       most = excess[i].back();
-      const lattice::PressSetup& press = fit.input.presses[i];
+      const lattice::PressSetup& press = fit.input.curves[i].press;
       depth = press.protocol.depth / press.geometry.thickness();
     }
   if (std::abs(most) <= small_excess) return fit;
@@ -202,7 +204,7 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit, Presses p
     fit.notes.push_back(said + "; small strain is fitted as asked by lattice.kinematics");
     return fit;
   }
-  fit.input.theory_error = excess;
+  for (std::size_t i = 0; i < excess.size(); ++i) fit.input.curves[i].theory_error = excess[i];
   fit.input.theory_error_of = "what finite strain adds";
   fit.notes.push_back(said +
                       ": that difference counts as an error of the model, which widens the "
@@ -212,10 +214,8 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit, Presses p
 
 /// How long the search may take is said before it begins.
 void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
-  const auto& kinds = fit.input.kinds;
-  const bool pressed = std::ranges::find(kinds, CurveKind::press) != kinds.end() ||
-                       std::ranges::find(kinds, CurveKind::moving_press) != kinds.end();
-  const bool costs = pressed && (fit.input.branches.empty() || !asks_one_press(fit.input));
+  const bool costs = std::ranges::any_of(fit.input.curves, is_lattice) &&
+                     (fit.input.branches.empty() || !asks_one_press(fit.input));
   if (!costs && !loaded.entries.at("calibration.evaluations").given) return;
   fit.input.options.max_evaluations = loaded.config.calibration.evaluations;
   fit.notes.push_back(
@@ -229,7 +229,7 @@ FitSetup set_up(const LoadedConfig& loaded, Presses presses) {
   const auto excess = excess_of_finite_strain(first.input);
   FitSetup fit = at_the_right_strain(loaded, std::move(first), presses, excess);
   if (fit.input.base.lattice.kinematics == lattice::Kinematics::small)
-    fit.input.finite_excess = excess;
+    for (std::size_t i = 0; i < excess.size(); ++i) fit.input.curves[i].finite_excess = excess[i];
   set_budget(loaded, fit);
   if (lattice_of_fit(loaded) != LatticeUse::none)
     for (const std::string& note : spacing_notes(loaded)) fit.notes.push_back(note);

@@ -91,10 +91,16 @@ std::string described(const lattice::PressSetup& setup) {
   return text;
 }
 
-void name_once(const std::vector<Curve>& others, Curve& curve) {
-  const std::string name = curve.name;
-  for (int copy = 2; std::ranges::find(others, curve.name, &Curve::name) != others.end(); ++copy)
+FitCurve& add_curve(FitInput& input, CurveKind kind, Curve curve, const std::string& condition) {
+  const std::string name = curve.name.empty() ? condition : curve.name;
+  curve.name = name;
+  for (int copy = 2;
+       std::ranges::find(input.curves, curve.name, &FitCurve::name) != input.curves.end(); ++copy)
     curve.name = name + " (" + std::to_string(copy) + ")";
+  FitCurve& added = input.curves.emplace_back(std::move(curve));
+  added.kind = kind;
+  added.condition = condition;
+  return added;
 }
 
 LatticeUse lattice_of_fit(const LoadedConfig& loaded) {
@@ -102,7 +108,7 @@ LatticeUse lattice_of_fit(const LoadedConfig& loaded) {
                                                                      : LatticeUse::press;
 }
 
-void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
+FitCurve& add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
   const lattice::PressSetup press = press_setup(own, lattice_of_fit(own));
   if (press.protocol.slides_after())
     throw own.locate(
@@ -113,13 +119,10 @@ void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve cur
     throw own.locate(
         {{"press.program", "given", "a fit takes forces against the indentation of one loading",
           "leave it out, or give press.depth and press.speed"}});
-  fit.input.conditions.push_back(described(press));
-  if (curve.name.empty()) curve.name = fit.input.conditions.back();
-  name_once(fit.input.curves, curve);
-  fit.input.curves.push_back(std::move(curve));
-  fit.input.kinds.push_back(kind);
-  fit.input.presses.push_back(press);
-  fit.input.continua.push_back(continuum_beside(own, press.lattice.kinematics));
+  FitCurve& added = add_curve(fit.input, kind, std::move(curve), described(press));
+  added.press = press;
+  added.continuum = continuum_beside(own, press.lattice.kinematics);
+  return added;
 }
 
 CurveKind press_kind(const CalibrationSettings& settings) {
@@ -134,12 +137,11 @@ constexpr double run_up = 0.1;  // [s]
 /// A moving lattice beside the transient continuum. Its step is that of the largest retardation
 /// time a fit may try, twice the configuration's.
 void add_moving_press(FitSetup& fit, const LoadedConfig& own, Curve curve) {
-  add_press(fit, own, CurveKind::moving_press, std::move(curve));
-  lattice::PressSetup& press = fit.input.presses.back();
-  press.protocol.clearance = run_up * press.protocol.speed;
-  press.rubber.retardation_time *= 2.0;
-  fit.input.continua.back().analysis = fem_reference::Analysis::transient;
-  fit.input.continua.back().strain = fem_reference::Strain::linear;
+  FitCurve& added = add_press(fit, own, CurveKind::moving_press, std::move(curve));
+  added.press.protocol.clearance = run_up * added.press.protocol.speed;
+  added.press.rubber.retardation_time *= 2.0;
+  added.continuum.analysis = fem_reference::Analysis::transient;
+  added.continuum.strain = fem_reference::Strain::linear;
 }
 
 }  // namespace

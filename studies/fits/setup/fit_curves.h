@@ -31,12 +31,14 @@ std::string described(const lattice::PressSetup& setup);
 LatticeUse lattice_of_fit(const LoadedConfig& loaded);
 CurveKind press_kind(const CalibrationSettings& settings);
 
-/// Numbers a curve whose name others have: two files of one stem, two fingers under one contact.
-void name_once(const std::vector<calibration::Curve>& others, calibration::Curve& curve);
+/// Appends a curve, named by its condition where it has no name, and numbered where others have its
+/// name: two files of one stem, two fingers under one contact.
+FitCurve& add_curve(FitInput& input, CurveKind kind, calibration::Curve curve,
+                    const std::string& condition);
 
-/// Appends a press with its curve, named by its condition where it has no name. Throws ConfigError
-/// for a motion that no fit knows.
-void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, calibration::Curve curve);
+/// Appends a press with its curve. Throws ConfigError for a motion that no fit knows.
+FitCurve& add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind,
+                    calibration::Curve curve);
 
 /// A curve per condition, whose y the continuum will make.
 void add_continuum_curves(FitSetup& fit, const LoadedConfig& loaded);

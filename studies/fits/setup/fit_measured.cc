@@ -129,15 +129,15 @@ void add_provenance(FitSetup& fit, const std::string& what, const CurveSource& s
 /// Presses of a rigid blank, by the machine that they tell of.
 using Blanks = std::map<std::string, std::vector<CurveSource>>;
 
-void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const CurveSource& source,
-                        const MeasuredFile& file, CurveKind kind,
-                        const std::vector<std::string>& further, const Blanks& blanks) {
+FitCurve& add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const CurveSource& source,
+                             const MeasuredFile& file, CurveKind kind,
+                             const std::vector<std::string>& further, const Blanks& blanks) {
   std::vector<std::string> condition;
   for (const MeasuredSetting& setting : file.settings) condition.push_back(setting.assignment());
   condition.insert(condition.end(), further.begin(), further.end());
   std::vector<double> depths = file.curve.x;
+  std::optional<Travel> travel;
   if (kind == CurveKind::press || kind == CurveKind::continuum) {
-    std::optional<Travel>& travel = fit.input.travels.emplace_back();
     Config own = under(loaded, condition, {"press.mode=static"}).config;
     if (file.curve.is_travel) {
       const auto known = blanks.find(own.calibration.machine);
@@ -154,15 +154,16 @@ void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
     if (travel) depths = travel->depths;
   }
   const bool relaxes = !fit.input.branches.empty();
-  if (relaxes && !fit.input.travels.back())
-    depths = calibration::depths_for_rig(*std::ranges::max_element(depths));
+  if (relaxes && !travel) depths = calibration::depths_for_rig(*std::ranges::max_element(depths));
   const bool ramp = kind == CurveKind::ramp;
   const LoadedConfig own =
       ramp ? under(loaded, condition, {"press.mode=static"})
            : under(loaded, condition, {"press.mode=static", samples_setting(depths)});
-  add_press(fit, own, kind, relaxes ? with_times(own, file.curve) : file.curve);
+  FitCurve& added = add_press(fit, own, kind, relaxes ? with_times(own, file.curve) : file.curve);
+  added.travel = std::move(travel);
   fit.contact_known = fit.contact_known && own.entries.at("press.contact").given;
   fit.settings.push_back(std::move(condition));
+  return added;
 }
 
 std::string with_unit(const std::string& quantity) {
@@ -190,7 +191,7 @@ void check_stretches(const std::filesystem::path& path, const MeasuredFile& file
 void check_curves(const LoadedConfig& loaded, const FitInput& input,
                   const std::vector<std::filesystem::path>& files) {
   try {
-    calibration::check_curve_fit(input.curves, input.options);
+    calibration::check_curve_fit(curves_of(input), input.options);
   } catch (const meshes::InvalidInput& error) {
     std::vector<Problem> problems;
     for (const meshes::Violation& violation : error.violations()) {
@@ -215,25 +216,22 @@ void check_curves(const LoadedConfig& loaded, const FitInput& input,
 /// Travels have their rigs. Indentations of the same fit are travels of a rig that is known.
 void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
   FitInput& input = fit.input;
-  const auto given = [](const std::optional<Travel>& travel) { return travel.has_value(); };
-  if (std::ranges::none_of(input.travels, given)) {
+  const auto travels = [](const FitCurve& curve) { return curve.travel.has_value(); };
+  if (std::ranges::none_of(input.curves, travels)) {
     if (loaded.entries.at("calibration.rig").given)
       throw refused(loaded, "calibration.rig", "", "no file has the column position",
                     "name the travel of the machine so, or leave the rig out");
-    if (input.branches.empty()) {
-      input.travels.clear();
-      return;
-    }
+    if (input.branches.empty()) return;
   }
   CalibrationSettings rigid;
   rigid.rig.touch_offset.fitted = false;
   // An indentation says that both are zero.
   rigid.rig.touch_offset.given = rigid.rig.compliance.given = true;
-  for (std::size_t i = 0; i < input.travels.size(); ++i) {
-    if (input.travels[i]) continue;
-    Travel& travel = input.travels[i].emplace(travel_of(input.curves[i], rigid));
+  for (FitCurve& curve : input.curves) {
+    if (curve.travel) continue;
+    curve.travel = travel_of(curve, rigid);
     // A machine of its own.
-    travel.machine = "indentation of " + input.curves[i].name;
+    curve.travel->machine = "indentation of " + curve.name;
   }
   share_depths(input);
   try {
@@ -260,20 +258,20 @@ void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
   const CurveKind kind = kind_of(file, settings);
   const bool press =
       kind == CurveKind::press || kind == CurveKind::continuum || kind == CurveKind::ramp;
-  if (!fit.input.curves.empty() && press == fit.input.presses.empty())
+  if (!fit.input.curves.empty() && press != has_presses(fit.input))
     throw refused(loaded, "calibration.data", source.path.string(),
                   "forces of presses and other tests do not go into one fit",
                   "fit them one by one");
   file.curve.x_quantity = with_unit(file.x_quantity);
   file.curve.y_quantity = with_unit(file.y_quantity);
-  fit.input.rows.push_back({source.path.string(), source.rows ? std::size_t((*source.rows)[0]) : 1,
-                            std::move(file.rows)});
+  const RowsOfValues rows{source.path.string(), source.rows ? std::size_t((*source.rows)[0]) : 1,
+                          file.rows};
   for (const std::string& note : file.notes) notes.add(file.curve.name, note);
   if (press) {
     std::vector<std::string> sets = settings_in(source.condition);
     std::ranges::copy(settings_in(condition), std::back_inserter(sets));
     try {
-      add_measured_press(fit, loaded, source, file, kind, sets, blanks);
+      add_measured_press(fit, loaded, source, file, kind, sets, blanks).rows = rows;
     } catch (const meshes::InvalidInput& error) {
       throw placed_in(source.path, file, loaded.locate(error.violations()));
     } catch (const ConfigError& error) {
@@ -285,10 +283,7 @@ void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
   if (!condition.empty() || !source.condition.empty())
     throw refused(loaded, "calibration.conditions", "",
                   "conditions are those of presses; a test on a coupon has none", "leave them out");
-  name_once(fit.input.curves, file.curve);
-  fit.input.curves.push_back(std::move(file.curve));
-  fit.input.conditions.emplace_back();
-  fit.input.kinds.push_back(kind);
+  add_curve(fit.input, kind, std::move(file.curve), "").rows = rows;
 }
 
 }  // namespace

@@ -34,11 +34,9 @@ std::string in_words(const std::string& press, double depth) {
 }
 
 /// A press of which nothing is measured: its touch is where the settings say, else at zero.
-Travel planned_travel(const RigSettings& rig, const std::string& machine, double deepest) {
-  Travel travel{rig, machine, rig.touch_offset.value, deepest, 1.0, {}, {}};
-  travel.depths = calibration::depths_for_rig(deepest);
-  travel.rig = rig_of(rig);
-  return travel;
+Travel planned_travel(const RigSettings& rig, const std::string& machine, double deepest,
+                      const std::vector<double>& depths) {
+  return {rig, machine, rig.touch_offset.value, deepest, 1.0, depths, rig_of(rig)};
 }
 
 /// Indentations are travels of a rig that is known.
@@ -73,7 +71,6 @@ void add_planned_curves(FitSetup& fit, const LoadedConfig& loaded) {
                   "there must be one per file of calibration.data, or none", "complete the list");
   FitInput& input = fit.input;
   input.provenance = "a plan";
-  std::vector<RigSettings> rigs;
   bool any_travel = false;
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     const std::vector<std::string> condition = settings_in(conditions[i]);
@@ -87,27 +84,24 @@ void add_planned_curves(FitSetup& fit, const LoadedConfig& loaded) {
     curve.is_travel = asked.entries.at("calibration.rig").given;
     curve.time = times_of(curve.x, protocol.speed);
     any_travel = any_travel || curve.is_travel;
+    RigSettings rig = rigid();
     try {
-      rigs.push_back(curve.is_travel ? with_blank(asked.config.calibration.rig, {}, fit.notes)
-                                     : rigid());
+      if (curve.is_travel) rig = with_blank(asked.config.calibration.rig, {}, fit.notes);
     } catch (const meshes::InvalidInput& error) {
       throw asked.locate(error.violations());
     }
     const std::vector<double> depths =
         curve.is_travel ? calibration::depths_for_rig(curve.x.back()) : curve.x;
     add_press(fit, under(loaded, condition, {"press.mode=static", samples_setting(depths)}),
-              press_kind(settings), curve);
-    input.travels.emplace_back(planned_travel(
-        rigs.back(),
-        curve.is_travel ? asked.config.calibration.machine : "indentation of " + curve.name,
-        curve.x.back()));
-    if (!curve.is_travel) input.travels.back()->depths = depths;
+              press_kind(settings), curve)
+        .travel = planned_travel(
+        rig, curve.is_travel ? asked.config.calibration.machine : "indentation of " + curve.name,
+        curve.x.back(), depths);
     fit.settings.push_back(condition);
     fit.contact_known = fit.contact_known && asked.entries.at("press.contact").given;
   }
   if (!any_travel) {
-    input.travels.clear();
-    for (Curve& curve : input.curves) curve.time.clear();
+    for (FitCurve& curve : input.curves) curve.time.clear(), curve.travel.reset();
     return;
   }
   try {
@@ -127,15 +121,14 @@ struct FirstPress {
   const lattice::PressSetup& press;
   std::vector<std::string> settings;
   double depth;  ///< of its values
-  bool travel;
 
-  std::string words() const { return fit.input.conditions.front(); }
+  std::string words() const { return fit.input.curves.front().condition; }
 };
 
 /// Of values that are known over the travel what their start makes of it.
 double deepest_value(const FitInput& input) {
-  return input.curves.front().y.empty() ? input.curves.front().x.back()
-                                        : depths_of_values(input, 0).back();
+  const FitCurve& first = input.curves.front();
+  return first.y.empty() ? first.x.back() : depths_of_values(first, start_of(input.options)).back();
 }
 
 /// One curve over the indentations of a press, behind a rig like the first one's.
@@ -143,28 +136,24 @@ std::shared_ptr<const FitInput> input_of(const FirstPress& first, const LoadedCo
                                          const std::string& name, double depth) {
   FitSetup further;
   const FitInput& input = first.fit.input;
+  const FitCurve& like = input.curves.front();
   Curve curve;
   curve.name = name;
-  curve.x = even_depths(depth, input.curves.front().x.size());
-  curve.is_travel = first.travel;
+  curve.x = even_depths(depth, like.x.size());
+  curve.is_travel = like.travel.has_value();
   curve.time = times_of(curve.x, own.config.press.protocol.speed);
-  add_press(further, own, input.kinds.front(), curve);
-  FitInput result;
+  FitCurve& added = add_press(further, own, like.kind, curve);
+  FitInput& result = further.input;
   result.problem = input.problem;
-  result.curves = further.input.curves;
-  result.conditions = further.input.conditions;
-  result.kinds = further.input.kinds;
-  result.presses = further.input.presses;
-  result.continua = further.input.continua;
   result.base = input.base;
   result.place = "next_" + name;
   result.with_lattice_error = input.with_lattice_error;
   const std::size_t rubber = material_parameters(input);
   result.options.free.assign(input.options.free.begin(),
                              input.options.free.begin() + std::ptrdiff_t(rubber));
-  const bool rig = first.travel && is_travel(input, 0);
-  result.travels.emplace_back(planned_travel(rig ? input.travels.front()->settings : rigid(),
-                                             rig ? input.travels.front()->machine : "", depth));
+  added.travel =
+      planned_travel(like.travel ? like.travel->settings : rigid(),
+                     like.travel ? like.travel->machine : "", depth, added.press.protocol.samples);
   free_rigs(result);
   return std::make_shared<const FitInput>(std::move(result));
 }
@@ -180,7 +169,7 @@ Candidate pressed(const FirstPress& first, const std::string& name,
         under(first.loaded, condition,
               {"press.mode=static", samples_setting(calibration::depths_for_rig(depth))});
     candidate.input = input_of(first, own, name, depth);
-    candidate.press = in_words(candidate.input->conditions.front(), depth);
+    candidate.press = in_words(candidate.input->curves.front().condition, depth);
   } catch (const ConfigError& error) {
     candidate.refused = to_string(error.problems().front());
   } catch (const meshes::InvalidInput& error) {
@@ -192,7 +181,7 @@ Candidate pressed(const FirstPress& first, const std::string& name,
 /// A continuum in three dimensions takes minutes: only on request.
 bool is_dear(const FirstPress& first, const Candidate& candidate) {
   return by_continuum(first.fit.input) && candidate.input &&
-         !candidate.input->continua.front().axisymmetric();
+         !candidate.input->curves.front().continuum.axisymmetric();
 }
 
 std::string length_setting(const char* key, double metres) {
@@ -261,13 +250,9 @@ Candidate conditioned(const FirstPress& first, const std::string& name,
 std::vector<Candidate> candidates_of(const LoadedConfig& loaded, const FitSetup& fit) {
   std::vector<Candidate> candidates;
   const FitInput& input = fit.input;
-  if (input.problem != CalibrationProblem::experiment || input.presses.empty()) return candidates;
-  const FirstPress first{loaded,
-                         fit,
-                         input.presses.front(),
-                         fit.settings.front(),
-                         deepest_value(input),
-                         is_travel(input, 0)};
+  if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return candidates;
+  const FirstPress first{loaded, fit, input.curves.front().press, fit.settings.front(),
+                         deepest_value(input)};
   int conditions = 0;
   for (const std::string& entry : loaded.config.calibration.candidates) {
     if (entry.find('=') != entry.npos) {

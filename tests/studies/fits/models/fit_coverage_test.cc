@@ -64,16 +64,12 @@ struct Order {
 calibration::CurveFit fitted(const std::vector<Curve>& curves, const Order& order) {
   FitInput input;
   input.problem = CalibrationProblem::experiment;
-  input.curves = curves;
-  input.conditions.assign(curves.size(), "");
-  input.kinds.assign(curves.size(), CurveKind::press);
-  input.presses.resize(curves.size());
-  input.continua.resize(curves.size());
+  input.curves.assign(curves.begin(), curves.end());
   input.options.serial = true;
   input.options.tolerance = 1e-2;
   input.options.free = {{.parameter = MaterialParameter::modulus, .start = 0.75 * truth}};
   input.profile_intervals = order.profile;
-  for (const Curve& curve : curves) input.travels.push_back(travel_of(curve, order.settings));
+  for (FitCurve& curve : input.curves) curve.travel = travel_of(curve, order.settings);
   free_rigs(input);
   for (std::size_t k = 0; k < order.branches; ++k) {
     const Index at = Index(input.options.free.size());
@@ -88,7 +84,7 @@ calibration::CurveFit fitted(const std::vector<Curve>& curves, const Order& orde
   std::deque<calibration::RigModel> models;
   std::vector<calibration::ForwardModel*> list;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const Travel& travel = *input.travels[i];
+    const Travel& travel = *input.curves[i].travel;
     presses.emplace_back(travel.depths);
     list.push_back(&models.emplace_back(presses.back(), travel.depths, 1, travel.rig, curves[i].x,
                                         curves[i].time, Index(input.options.free.size()),

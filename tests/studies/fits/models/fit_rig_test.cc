@@ -56,7 +56,7 @@ TEST(FitRig, GivenTouchesAndPriorsGoBeforeWhatForcesTell) {
   rig.touch_offset = {true, 0.2e-3, 0.01e-3};
   FitInput input;
   input.curves = {hertz(0.28e-3, 0.0)};
-  input.travels = {travel_of(input.curves[0], with(rig))};
+  input.curves[0].travel = travel_of(input.curves[0], with(rig));
   free_rigs(input);
   ASSERT_EQ(input.options.free.size(), 1U);
   const calibration::FreeParameter& free = input.options.free[0];
@@ -74,8 +74,8 @@ TEST(FitRig, FilesHaveTheirTouchAndMachinesTheirCompliance) {
   FitInput input;
   input.options.free = {{.parameter = MaterialParameter::modulus, .start = 1e5}};
   for (const char* name : {"a", "b", "c"}) input.curves.push_back(hertz(1e-3, 1e-5, name));
-  input.travels = {travel_of(input.curves[0], first), travel_of(input.curves[1], second),
-                   travel_of(input.curves[2], first)};
+  for (const std::size_t i : {0, 1, 2})
+    input.curves[i].travel = travel_of(input.curves[i], i == 1 ? second : first);
   free_rigs(input);
   std::vector<std::string> labels;
   for (const auto& free : input.options.free) labels.push_back(calibration::label(free));
@@ -83,8 +83,10 @@ TEST(FitRig, FilesHaveTheirTouchAndMachinesTheirCompliance) {
             (std::vector<std::string>{"modulus", "touch_offset (a)", "compliance",
                                       "force_offset (a)", "touch_offset (b)", "compliance (B)",
                                       "force_offset (b)", "touch_offset (c)", "force_offset (c)"}));
-  EXPECT_EQ(input.travels[0]->rig.compliance.place, input.travels[2]->rig.compliance.place);
-  EXPECT_NE(input.travels[0]->rig.compliance.place, input.travels[1]->rig.compliance.place);
+  EXPECT_EQ(input.curves[0].travel->rig.compliance.place,
+            input.curves[2].travel->rig.compliance.place);
+  EXPECT_NE(input.curves[0].travel->rig.compliance.place,
+            input.curves[1].travel->rig.compliance.place);
   EXPECT_EQ(material_parameters(input), 1U);
   EXPECT_EQ(rig_values(input).size(), 8U);  // two per file, two machines
 }
@@ -94,7 +96,8 @@ TEST(FitRig, ValuesThatNobodyGaveAreTold) {
                         MaterialParameter quantity) {
     FitInput input;
     input.curves = {hertz(0.0, 0.0, "a"), hertz(0.0, 0.0, "b")};
-    input.travels = {travel_of(input.curves[0], first), travel_of(input.curves[1], second)};
+    input.curves[0].travel = travel_of(input.curves[0], first);
+    input.curves[1].travel = travel_of(input.curves[1], second);
     std::vector<bool> result;
     for (const calibration::RigValue& each : rig_values(input))
       if (each.quantity == quantity) result.push_back(each.given);
@@ -122,21 +125,22 @@ TEST(FitRig, RefusesWhatCannotBe) {
   other.compliance = {false, 1e-5, 0.0, true};
   FitInput input;
   input.curves = {hertz(0.0, 0.0, "a"), hertz(0.0, 0.0, "b")};
-  input.travels = {travel_of(input.curves[0], with(one)), travel_of(input.curves[1], with(other))};
+  input.curves[0].travel = travel_of(input.curves[0], with(one));
+  input.curves[1].travel = travel_of(input.curves[1], with(other));
   EXPECT_THROW(free_rigs(input), meshes::InvalidInput);
 }
-
-namespace {}  // namespace
 
 TEST(FitRig, OneFileOfAMachineTellsItsCompliance) {
   RigSettings known;
   known.compliance = {true, 5e-5, 1e-6, true};
   FitInput input;
   input.curves = {hertz(0.0, 5e-5, "a"), hertz(0.0, 5e-5, "b")};
-  input.travels = {travel_of(input.curves[0], {}), travel_of(input.curves[1], with(known))};
+  input.curves[0].travel = travel_of(input.curves[0], {});
+  input.curves[1].travel = travel_of(input.curves[1], with(known));
   free_rigs(input);
-  ASSERT_TRUE(input.travels[0]->rig.compliance.place);
-  EXPECT_EQ(input.travels[0]->rig.compliance.place, input.travels[1]->rig.compliance.place);
+  ASSERT_TRUE(input.curves[0].travel->rig.compliance.place);
+  EXPECT_EQ(input.curves[0].travel->rig.compliance.place,
+            input.curves[1].travel->rig.compliance.place);
 }
 
 TEST(FitRig, ValuesBeforeTouchHaveATinyDepth) {
@@ -144,12 +148,14 @@ TEST(FitRig, ValuesBeforeTouchHaveATinyDepth) {
   input.curves = {hertz(0.28e-3, 0.0)};
   RigSettings held;
   held.touch_offset = {false, 0.28e-3, 0.0};
-  input.travels = {travel_of(input.curves[0], with(held))};
-  const std::vector<double> depths = depths_of_values(input, 0);
+  input.curves[0].travel = travel_of(input.curves[0], with(held));
+  const std::vector<double> depths =
+      depths_of_values(input.curves[0], calibration::start_of(input.options));
   EXPECT_GT(depths.front(), 0.0);
-  EXPECT_LT(depths.front(), input.travels[0]->depths.front());
+  EXPECT_LT(depths.front(), input.curves[0].travel->depths.front());
   EXPECT_NEAR(depths.back(), 4e-3, 1e-12);
-  std::vector<double> twice = input.travels[0]->depths;
+  std::vector<double> twice = input.curves[0].travel->depths;
   for (double& value : twice) value *= 2.0;
-  EXPECT_NEAR(at_values(input, 0, twice).back(), 8e-3, 1e-9);
+  EXPECT_NEAR(at_values(input.curves[0], calibration::start_of(input.options), twice).back(), 8e-3,
+              1e-9);
 }

@@ -51,12 +51,12 @@ double fitted_modulus(const calibration::Curve& curve) {
   input.curves = {curve};
   input.options.free = {
       {.parameter = calibration::MaterialParameter::modulus, .start = 1e5, .scale = 1e5}};
-  input.travels = {travel_of(curve, {})};
+  input.curves[0].travel = travel_of(curve, {});
   free_rigs(input);
-  HertzModel press(input.travels[0]->depths);
-  calibration::RigModel model(press, input.travels[0]->depths, 1, input.travels[0]->rig, curve.x,
-                              curve.time, 2);
-  return calibration::fit_curves(input.curves, {&model}, input.options).estimates(0);
+  HertzModel press(input.curves[0].travel->depths);
+  calibration::RigModel model(press, input.curves[0].travel->depths, 1, input.curves[0].travel->rig,
+                              curve.x, curve.time, 2);
+  return calibration::fit_curves(curves_of(input), {&model}, input.options).estimates(0);
 }
 
 /// A row as the machine measured it, with the digits that every file has: mm, N, s.

@@ -10,7 +10,6 @@
 
 using namespace fingertip;
 using namespace fingertip::studies;
-using nlohmann::ordered_json;
 
 namespace {
 
@@ -21,17 +20,15 @@ struct StraightLine {
   double truth = 5.0, error = 0.02;
 
   double estimate() const { return truth / (1.0 + error); }
-  ordered_json calibration() const {
-    ordered_json influence = ordered_json::array();
-    for (const double value : x) influence.push_back(value / (1.0 + error) / 30.0);
-    return {{"statement", "Found."},
-            {"influence", {influence}},
-            {"parameters",
-             {{{"name", "p"},
-               {"unit", "1"},
-               {"estimate", estimate()},
-               {"lower", 4.8},
-               {"upper", 5.0}}}}};
+  calibration::FitFile fit() const {
+    calibration::FitFile file;
+    file.statement = "Found.";
+    file.influence.emplace_back();
+    for (const double value : x) file.influence[0].push_back(value / (1.0 + error) / 30.0);
+    calibration::ParameterEntry& parameter = file.parameters.emplace_back();
+    parameter.name = "p", parameter.unit = "1", parameter.estimate = estimate();
+    parameter.lower = 4.8, parameter.upper = 5.0;
+    return file;
   }
 };
 
@@ -53,49 +50,40 @@ TEST(FitBias, AModelThatIsTooStiffMakesTheEstimateTooSmall) {
   for (int i = 0; i < 4; ++i)
     EXPECT_NEAR(error(i), line.estimate() * line.error * line.x[std::size_t(i)], 1e-12);
 
-  ordered_json calibration = line.calibration();
-  add_bias(error, calibration);
-  const ordered_json& found = calibration["parameters"][0];
-  const double bias = found["bias"];
+  calibration::FitFile fit = line.fit();
+  add_bias(error, fit);
+  const calibration::ParameterEntry& found = fit.parameters[0];
+  const double bias = found.bias;
   // To first order in the error the true bias, estimate minus truth.
   EXPECT_NEAR(bias, line.estimate() - line.truth, 2.0 * line.truth * line.error * line.error);
-  EXPECT_NEAR(found["lower"].get<double>(), 4.8 - std::abs(bias), 1e-12);
-  EXPECT_NEAR(found["upper"].get<double>(), 5.0 + std::abs(bias), 1e-12);
-  EXPECT_NE(calibration["statement"].get<std::string>().find("shifted by -2"), std::string::npos)
-      << calibration["statement"];
+  EXPECT_NEAR(found.lower, 4.8 - std::abs(bias), 1e-12);
+  EXPECT_NEAR(found.upper, 5.0 + std::abs(bias), 1e-12);
+  EXPECT_NE(fit.statement.find("shifted by -2"), std::string::npos) << fit.statement;
 }
 
 /// Whoever reads kPa and mm reads these in every sentence.
 TEST(FitBias, SentencesOnAnotherContactAndOnTheBiasHaveUnits) {
   const auto fit = [](double modulus, double touch, double deviation) {
-    const auto parameter = [](const char* name, const char* unit, double value) {
-      return ordered_json{{"name", name},
-                          {"unit", unit},
-                          {"estimate", value},
-                          {"lower", 0.9 * value},
-                          {"upper", 1.1 * value},
-                          {"interval", "profile"},
-                          {"standard_error", 0.05 * value}};
+    calibration::FitFile file;
+    const auto add = [&](const char* name, const char* unit, double value) {
+      calibration::ParameterEntry& parameter = file.parameters.emplace_back();
+      parameter.name = name, parameter.unit = unit, parameter.estimate = value;
+      parameter.lower = 0.9 * value, parameter.upper = 1.1 * value;
     };
-    return ordered_json{{"parameters",
-                         {parameter("modulus", "Pa", modulus),
-                          parameter("touch_offset", "m", touch), parameter("bond", "1", 0.5)}},
-                        {"chi_square", nullptr},
-                        {"residual_deviation", deviation},
-                        {"influence", {{0.0}, {0.0}, {0.0}}},
-                        {"statement", ""}};
+    add("modulus", "Pa", modulus), add("touch_offset", "m", touch), add("bond", "1", 0.5);
+    file.residual_deviation = deviation;
+    file.influence.assign(3, {0.0});
+    return file;
   };
-  ordered_json calibration = fit(2.0e5, 2.0e-4, 0.0498);
-  add_other_contact(fit(2.4162e5, 2.4807e-4, 0.0509), "stick", "frictionless", calibration);
-  const auto shown = [&] {
-    return in_shown_units(calibration["statement"].get<std::string>(), Spelling::terminal);
-  };
+  calibration::FitFile first = fit(2.0e5, 2.0e-4, 0.0498);
+  add_other_contact(fit(2.4162e5, 2.4807e-4, 0.0509), "stick", "frictionless", first);
+  const auto shown = [&] { return in_shown_units(first.statement, Spelling::terminal); };
   EXPECT_NE(shown().find("With frictionless contact modulus = 241.62 kPa (95 %: 217.46 to 265.78); "
                          "touch_offset = 0.24807 mm (95 %: 0.22326 to 0.27288); bond = 0.5 (95 %: "
                          "0.45 to 0.55), residuals of 50.9 mN in place of 49.8 mN."),
             std::string::npos)
       << shown();
-  add_bias(Eigen::VectorXd::Zero(1), calibration);
+  add_bias(Eigen::VectorXd::Zero(1), first);
   EXPECT_NE(shown().find("are modulus 180 kPa to 265.78 kPa (shifted"), std::string::npos)
       << shown();
 }
