@@ -212,8 +212,7 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
     points += Index(test.stress.size());
   }
   CurveFitOptions fit = starts_of(tests, scales, choice, options, done);
-  std::vector<MaterialParameter> parameters;
-  for (const FreeParameter& free : fit.free) parameters.push_back(free.parameter);
+  const std::vector<MaterialParameter> parameters = parameters_in(fit);
   check_points(points, Index(parameters.size()), choice);
   std::vector<std::unique_ptr<LawModel>> models;
   std::vector<ForwardModel*> addresses;
@@ -365,18 +364,6 @@ const LawFit* recommended(const std::vector<LawFit>& ranking) {
   });
   if (found == ranking.end()) found = ranking.begin();
   return found == ranking.end() || !found->failure.empty() ? nullptr : &*found;
-}
-
-meshes::Rubber rubber_of(const LawFit& fit, double poissons_ratio) {
-  meshes::Rubber rubber;
-  const double g = fit.law.shear_modulus;
-  rubber.shear_modulus = g;
-  const double k = fit.bulk_modulus.value_or(0.0);
-  rubber.youngs_modulus =
-      fit.bulk_modulus ? 9.0 * k * g / (3.0 * k + g) : 2.0 * g * (1.0 + poissons_ratio);
-  rubber.energy = fit.law.energy;
-  rubber.relaxation = fit.relaxation;
-  return rubber;
 }
 
 }  // namespace fingertip::calibration::inline material_tests

@@ -44,8 +44,4 @@ const LawFit* recommended(const std::vector<LawFit>& ranking);
 /// The laws that it chooses among; none where none passed its own tests.
 std::vector<const LawFit*> equals(const std::vector<LawFit>& ranking);
 
-/// E, G, the energy and the relaxation of a fit as a rubber; nu is that of `bulk_modulus`, or
-/// `poissons_ratio` where it is unknown. Its rules may be broken: Rubber::violations tells.
-meshes::Rubber rubber_of(const LawFit& fit, double poissons_ratio);
-
 }  // namespace fingertip::calibration::inline material_tests

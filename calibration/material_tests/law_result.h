@@ -41,11 +41,7 @@ constexpr auto values(TestWeights) {
 
 struct LawFitOptions {
   TestWeights weights = TestWeights::test;
-  /// Searches for laws of more than one minimum (ogden, gent), from the best of `guesses` sets of
-  /// exponents that are drawn between -25 and 25.
-  int starts = 8;
-  int guesses = 400;
-  unsigned seed = 1;
+  unsigned seed = 1;  ///< of the exponents that searches for ogden begin with
   /// Principal stretches in which the law will be used, where they are known.
   std::optional<std::array<double, 2>> range_of_use;
 };

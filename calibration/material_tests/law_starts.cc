@@ -21,6 +21,8 @@ namespace {
 
 /// Beyond it l^alpha is a number without meaning.
 constexpr double largest_exponent = 25.0;
+/// Searches for ogden begin with the best of so many sets of exponents that are drawn.
+constexpr int most_starts = 8, guess_count = 400;
 /// A term of so small a share of G is none.
 constexpr double smallest_share = 1e-6;
 
@@ -120,11 +122,10 @@ std::optional<Guess> with_exponents(const ScaledTests& tests, const std::vector<
 }
 
 /// The best sets of exponents, the largest first in each, so that terms have an order.
-std::vector<VectorXd> ogden_starts(const ScaledTests& tests, int terms, double g,
-                                   const LawFitOptions& options) {
-  std::mt19937 random(options.seed);
+std::vector<VectorXd> ogden_starts(const ScaledTests& tests, int terms, double g, unsigned seed) {
+  std::mt19937 random(seed);
   std::vector<Guess> guesses;
-  for (int n = 0; n < options.guesses; ++n) {
+  for (int n = 0; n < guess_count; ++n) {
     std::vector<double> exponents;
     for (int i = 0; i < terms; ++i) {
       // Small ones more often; the generator's own numbers are the same everywhere.
@@ -140,7 +141,7 @@ std::vector<VectorXd> ogden_starts(const ScaledTests& tests, int terms, double g
   std::ranges::stable_sort(guesses, {}, &Guess::misfit);
   std::vector<VectorXd> starts;
   for (const Guess& guess : guesses) {
-    if (int(starts.size()) == options.starts) break;
+    if (int(starts.size()) == most_starts) break;
     // Another valley, or at least another side of this one.
     const bool known = std::ranges::any_of(starts, [&](const VectorXd& start) {
       double apart = 0.0;
@@ -189,7 +190,7 @@ CurveFitOptions law_starts(const std::vector<MaterialTest>& tests,
         fit.other_starts.push_back(Eigen::Vector2d(g, factor * above));
       break;
     case RubberLaw::ogden: {
-      const std::vector<VectorXd> starts = ogden_starts(scaled, choice.terms, g, options);
+      const std::vector<VectorXd> starts = ogden_starts(scaled, choice.terms, g, options.seed);
       for (Index i = 0; i < starts.front().size(); i += 2) {
         const double mu = starts.front()(i), alpha = starts.front()(i + 1);
         add(mu, smallest_share * g, 1e4 * g, size(mu, 1e-3 * g));

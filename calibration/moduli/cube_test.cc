@@ -1,6 +1,5 @@
 #include "calibration/moduli/cube_test.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
@@ -16,7 +15,7 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Pivots (and eigenvalues) below this fraction of the largest count as zero. A stiff but sound
+/// Pivots below this fraction of the largest count as zero. A stiff but sound
 /// cube of 8 cells has pivots above 1e-4 of the largest.
 constexpr double singular_ratio = 1e-10;
 
@@ -156,14 +155,6 @@ CubeModuli measure_cube(const lattice::CubeLattice& cube) {
   shear(0, 1) = shear(1, 0) = stress;
   moduli.shear_modulus = stress / (2.0 * machine.mean_strain(shear)(0, 1));
   return moduli;
-}
-
-int count_mechanisms(const lattice::CubeLattice& cube) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(cube.stiffness),
-                                                             Eigen::EigenvaluesOnly);
-  const Eigen::VectorXd& stiffness = modes.eigenvalues();
-  const double zero = singular_ratio * stiffness.maxCoeff();
-  return int((stiffness.array().abs() < zero).count()) - 6;
 }
 
 }  // namespace fingertip::calibration::inline moduli

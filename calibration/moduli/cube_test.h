@@ -23,8 +23,4 @@ struct CubeModuli {
 /// no equilibrium.
 CubeModuli measure_cube(const lattice::CubeLattice& cube);
 
-/// Number of independent motions besides the six rigid ones that cost no energy: modes with an
-/// eigenvalue below 1e-10 of the largest. Dense, so for cubes of a few cells.
-int count_mechanisms(const lattice::CubeLattice& cube);
-
 }  // namespace fingertip::calibration::inline moduli

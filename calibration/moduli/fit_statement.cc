@@ -106,17 +106,15 @@ std::string describe_direction(const Eigen::Vector4d& direction) {
 
 std::string fit_statement(const ModuliFit& fit) {
   const bool body_diagonals = fit.constants.k3 > 1e-9 * fit.constants.k2;
-  const std::string text =
-      model_part(fit) + " The tests cannot tell apart constants that differ along (" +
-      describe_direction(fit.unidentifiable) +
-      "): the moduli see the springs only through k1 + 2 k2 + 4/3 k3 and k2 + 4/3 k3."
-      " Of these the constants whose weaker one of k1 and k2 is largest were chosen, farthest from "
-      "the lattices with motions that cost nothing: k3 = " +
-      (body_diagonals ? rounded(fit.constants.k3) + " N/m" : std::string("0, no body diagonals")) +
-      ".";
-  return text + (fit.cell_mechanisms == 0
-                     ? " A single cell has no such motion."
-                     : " A single cell has " + std::to_string(fit.cell_mechanisms) + " of them.");
+  return model_part(fit) + " The tests cannot tell apart constants that differ along (" +
+         describe_direction(fit.unidentifiable) +
+         "): the moduli see the springs only through k1 + 2 k2 + 4/3 k3 and k2 + 4/3 k3."
+         " Of these the constants whose weaker one of k1 and k2 is largest were chosen, farthest "
+         "from "
+         "the lattices with motions that cost nothing: k3 = " +
+         (body_diagonals ? rounded(fit.constants.k3) + " N/m"
+                         : std::string("0, no body diagonals")) +
+         ". A single cell has no such motion.";
 }
 
 }  // namespace fingertip::calibration::inline moduli

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/moduli/cube_test.h"
-#include "lattice/statics/cube.h"
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
@@ -171,8 +169,6 @@ ModuliFit fit_moduli(const meshes::Rubber& rubber, const ModuliFitOptions& optio
   fit.achieved = homogenised_moduli(fit.constants, options.spacing);
   add_residuals(fit);
   fit.unidentifiable = Eigen::Vector4d(4.0, -4.0, 3.0, 0.0).normalized();
-  fit.cell_mechanisms =
-      count_mechanisms(lattice::cube_lattice(fit.model, fit.constants, fit.spacing, 1));
   return fit;
 }
 

@@ -35,8 +35,7 @@ struct ModuliFit {
   meshes::Entries<double> residuals;
   /// The direction of (k1, k2, k3, kappa), of unit length, along which no modulus changes.
   Eigen::Vector4d unidentifiable;
-  int iterations = 0;       ///< of the search for a compromise
-  int cell_mechanisms = 0;  ///< motions of one cell that cost no energy
+  int iterations = 0;  ///< of the search for a compromise
 
   /// Whether weights ask for more than central springs can reach.
   bool is_compromise() const { return isotropy_weight > 0.0 || bulk_weight > 0.0; }

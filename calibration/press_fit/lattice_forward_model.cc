@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "calibration/statistics/curve_residuals.h"
 #include "lattice/model/constants.h"
 #include "lattice/press/static_press.h"
 #include "meshes/base/errors.h"
@@ -86,30 +85,6 @@ void check(const PressSetup& setup, const std::vector<MaterialParameter>& parame
 
 /// To so many decimals two Poisson's ratios are one: what E/(2G) - 1 makes of round-off.
 constexpr double ratio_steps = 1e13;
-
-PressSetup setup_of(const Curve& curve, PressSetup setup) {
-  const double depth = curve.x.back();
-  // The plane moves in proportion to the indentation.
-  if (setup.protocol.lateral != 0.0) setup.protocol.lateral *= depth / setup.protocol.depth;
-  setup.protocol.depth = depth;
-  setup.protocol.samples = curve.x;
-  return setup;
-}
-
-/// k1, k2, k3 mean the same rubber at one spacing only.
-void check_spacing(const std::vector<PressSetup>& conditions, const CurveFitOptions& options) {
-  const bool springs = std::ranges::any_of(
-      options.free, [](const FreeParameter& free) { return unit(free.parameter) == "N/m"; });
-  const auto& first = conditions.front().lattice;
-  for (const PressSetup& condition : conditions) {
-    const auto& lattice = condition.lattice;
-    if (!springs || (lattice.spacing == first.spacing && lattice.model == first.model)) continue;
-    throw meshes::InvalidInput(
-        {"lattice.spacing", meshes::to_text(lattice.spacing) + " m",
-         "constants of springs are common to curves of one model and spacing",
-         "take one lattice for all curves, or fit E and G"});
-  }
-}
 
 }  // namespace
 
@@ -218,21 +193,6 @@ CurveSlopes LatticeForwardModel::evaluate(const Eigen::VectorXd& parameters) {
   CurveSlopes result = at_ratio(ratio);
   result.value *= setup.rubber.shear_modulus / setup_.rubber.shear_modulus;
   return result;
-}
-
-CurveFit fit_presses(const std::vector<Curve>& curves, const std::vector<PressSetup>& conditions,
-                     const CurveFitOptions& options, const std::function<bool()>& go_on) {
-  check_curve_fit(curves, options);
-  if (conditions.size() != curves.size())
-    throw meshes::InvalidInput({"conditions", std::to_string(conditions.size()),
-                                "every curve needs its condition", "give one per curve"});
-  check_spacing(conditions, options);
-  std::vector<LatticeForwardModel> models;
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    models.emplace_back(setup_of(curves[i], conditions[i]), parameters_in(options), go_on);
-  std::vector<ForwardModel*> addresses;
-  for (LatticeForwardModel& model : models) addresses.push_back(&model);
-  return fit_curves(curves, addresses, options);
 }
 
 }  // namespace fingertip::calibration::inline press_fit

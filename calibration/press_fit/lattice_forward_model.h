@@ -1,4 +1,4 @@
-/// The static lattice as a model of measured presses, and fits of its parameters to them.
+/// The static lattice as a model of measured presses.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "calibration/material/material_parameter.h"
-#include "calibration/statistics/curve_fit.h"
 #include "calibration/statistics/forward_model.h"
 #include "lattice/press/press_parameters.h"
 #include "lattice/press/press_setup.h"
@@ -51,13 +50,5 @@ class LatticeForwardModel final : public ForwardModel {
   std::function<bool()> go_on_;
   std::map<double, CurveSlopes> by_ratio_;  ///< answers by Poisson's ratio, where moduli are all
 };
-
-/// `fit_curves` for presses of the static lattice, a condition per curve: how it was pressed and by
-/// what lattice it is computed; depth and samples are the curve's, `lateral` shrinks with the
-/// depth. `go_on` is asked while a press runs, from options.threads threads; false ends the fit
-/// with Interrupted. Throws InvalidInput also for constants of springs at different spacings.
-CurveFit fit_presses(const std::vector<Curve>& curves,
-                     const std::vector<lattice::PressSetup>& conditions,
-                     const CurveFitOptions& options, const std::function<bool()>& go_on = {});
 
 }  // namespace fingertip::calibration::inline press_fit

@@ -168,8 +168,7 @@ std::vector<VectorXd> scaled_starts(const std::vector<Curve>& curves,
   std::ranges::sort(poissons_ratios);
   std::vector<ScannedStart> scan;
   for (const double nu : poissons_ratios) {
-    VectorXd start(Index(options.free.size()));
-    for (Index i = 0; i < start.size(); ++i) start(i) = options.free[std::size_t(i)].start;
+    VectorXd start = start_of(options);
     start(e) = 2.0 * (1.0 + nu) * start(g);
     try {
       const auto scale = best_scale(residuals, curves, start);
@@ -197,11 +196,9 @@ std::optional<VectorXd> scaled_start(const std::vector<Curve>& curves,
                                      const CurveFitOptions& options) {
   check_curve_fit(curves, options);
   CurveResiduals residuals(curves, models, options);
-  VectorXd start(Index(options.free.size())), stiffness = VectorXd::Zero(start.size());
-  for (Index i = 0; i < start.size(); ++i) {
-    start(i) = options.free[std::size_t(i)].start;
+  VectorXd start = start_of(options), stiffness = VectorXd::Zero(start.size());
+  for (Index i = 0; i < start.size(); ++i)
     if (is_stiffness(options.free[std::size_t(i)])) stiffness(i) = start(i);
-  }
   const VectorXd values = whitened_values(residuals, curves, start);
   const VectorXd sum =
       residuals.at(start).jacobian.topRows(residuals.values()) * stiffness - values;

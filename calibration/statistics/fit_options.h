@@ -32,7 +32,9 @@ struct FreeParameter {
 };
 
 /// "touch_offset", or with its file or rig "touch_offset (second.csv)".
-std::string label(const FreeParameter& free);
+inline std::string label(const FreeParameter& free) {
+  return std::string(name(free.parameter)) + (free.of.empty() ? "" : " (" + free.of + ")");
+}
 
 struct CurveFitOptions {
   std::vector<FreeParameter> free;
@@ -75,9 +77,17 @@ struct CurveFitOptions {
 };
 
 /// Where the search starts.
-Eigen::VectorXd start_of(const CurveFitOptions& options);
+inline Eigen::VectorXd start_of(const CurveFitOptions& options) {
+  Eigen::VectorXd start(Eigen::Index(options.free.size()));
+  for (Eigen::Index i = 0; i < start.size(); ++i) start(i) = options.free[std::size_t(i)].start;
+  return start;
+}
 
 /// Of `options.free`, in that order.
-std::vector<MaterialParameter> parameters_in(const CurveFitOptions& options);
+inline std::vector<MaterialParameter> parameters_in(const CurveFitOptions& options) {
+  std::vector<MaterialParameter> parameters;
+  for (const FreeParameter& free : options.free) parameters.push_back(free.parameter);
+  return parameters;
+}
 
 }  // namespace fingertip::calibration::inline statistics

@@ -96,6 +96,18 @@ std::string open_combination(const Eigen::VectorXd& change, const Eigen::VectorX
   return text;
 }
 
+/// "youngs_modulus + 1, shear_modulus - 0.75": changes over the parameters' sizes.
+std::string describe_changes(const Eigen::VectorXd& changes,
+                             const std::vector<std::string>& labels) {
+  std::string text;
+  for (Index i = 0; i < changes.size(); ++i) {
+    if (std::abs(changes(i)) < visible_change) continue;
+    text += (text.empty() ? "" : ", ") + labels[std::size_t(i)] +
+            (changes(i) < 0.0 ? " - " : " + ") + number(std::abs(changes(i)));
+  }
+  return text;
+}
+
 /// `change` is the direction in the parameters' units.
 std::string statement_of(const Direction& direction, const Eigen::VectorXd& change,
                          const CurveFit& fit) {
@@ -172,17 +184,6 @@ void describe_sensitivity(CurveFit& fit, const Eigen::MatrixXd& priors,
     const bool closed = from_priors > value && interval <= 1.0 && i != ratio;
     (closed ? fit.only_from_priors : fit.unidentifiable).push_back(direction);
   }
-}
-
-std::string describe_changes(const Eigen::VectorXd& changes,
-                             const std::vector<std::string>& labels) {
-  std::string text;
-  for (Index i = 0; i < changes.size(); ++i) {
-    if (std::abs(changes(i)) < visible_change) continue;
-    text += (text.empty() ? "" : ", ") + labels[std::size_t(i)] +
-            (changes(i) < 0.0 ? " - " : " + ") + number(std::abs(changes(i)));
-  }
-  return text;
 }
 
 }  // namespace fingertip::calibration::inline statistics

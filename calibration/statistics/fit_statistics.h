@@ -53,8 +53,4 @@ std::optional<Eigen::VectorXd> ratio_slopes(const CurveFit& fit);
 void describe_sensitivity(CurveFit& fit, const Eigen::MatrixXd& priors,
                           const Eigen::VectorXd& sizes, double threshold, double quantile);
 
-/// "youngs_modulus + 1, shear_modulus - 0.75": changes over the parameters' sizes.
-std::string describe_changes(const Eigen::VectorXd& changes,
-                             const std::vector<std::string>& labels);
-
 }  // namespace fingertip::calibration::inline statistics

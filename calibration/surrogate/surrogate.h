@@ -55,13 +55,6 @@ class Surrogate {
   SurrogateTable table_;
 };
 
-struct SurrogateOptions {
-  std::string condition;
-  /// Weight of the curvature of F' against the residuals, dimensionless, > 0. The default suits the
-  /// static lattice from R/6 to R/12 (README); forces without roughness stand 1e-10.
-  double smoothing = 3e-7;
-};
-
 /// A C² cubic spline with F(0) = 0, F' >= 0 and F' > 0 beyond 0, through the samples but for their
 /// roughness; a lattice has some, for points join the contact one by one. Knots at D (k/12)², so
 /// that Hertz's F' ∝ sqrt(indentation) is a straight line over the index: its curvature is
@@ -69,14 +62,13 @@ struct SurrogateOptions {
 /// (I-splines, Ramsay 1988). Band: 1.96 deviations and the largest residual, in units of F^(2/3),
 /// or more where the samples beside a knot have more; it contains every sample. Throws InvalidInput
 /// for fewer than 5 samples, indentations that do not increase from 0, forces that are not
-/// positive, negative deviations, no smoothing.
+/// positive, negative deviations. `condition`: that of the press.
 Surrogate fit_surrogate(const std::vector<SurrogateSample>& samples,
-                        const SurrogateOptions& options = {});
+                        const std::string& condition = "");
 
-/// `indentation [m],force [N],stiffness [N/m],force_lower [N],force_upper [N]` at `rows` >= 2 equal
-/// steps from 0 to the last knot. Throws std::runtime_error when the file cannot be written.
-void write_surrogate_csv(const Surrogate& surrogate, const std::filesystem::path& file,
-                         int rows = 65);
+/// `indentation [m],force [N],stiffness [N/m],force_lower [N],force_upper [N]` at 64 equal steps
+/// from 0 to the last knot. Throws std::runtime_error when the file cannot be written.
+void write_surrogate_csv(const Surrogate& surrogate, const std::filesystem::path& file);
 
 /// knots, force, stiffness, band, statement, condition, units: the table, to its last bit. Throws
 /// std::runtime_error when the file cannot be written.

@@ -18,7 +18,9 @@ using meshes::to_text;
 
 constexpr double quantile = 1.959963984540054;  ///< of the normal distribution, 97.5 %
 constexpr double least_slope = 1e-6;            ///< over the mean slope
-constexpr int knot_intervals = 12;              ///< measured on presses (README)
+/// Weight of the curvature of F' against the residuals: suits the static lattice from R/6 to R/12.
+constexpr double smoothing = 3e-7;
+constexpr int knot_intervals = 12;  ///< measured on presses (README)
 
 /// Quadratic B-splines on [0, 1] for F', and their integrals for F.
 class SlopeBasis {
@@ -112,7 +114,7 @@ Scaled scaled(const std::vector<SurrogateSample>& samples) {
 }
 
 /// Coefficients of F' for the scaled samples.
-VectorXd fitted(const SlopeBasis& basis, const Scaled& s, double smoothing) {
+VectorXd fitted(const SlopeBasis& basis, const Scaled& s) {
   const Index m = s.place.size(), size = basis.size();
   const MatrixXd penalty = curvature(basis);
   MatrixXd rows(m + penalty.rows(), size);
@@ -189,15 +191,11 @@ void check(const std::vector<SurrogateSample>& samples) {
 
 }  // namespace
 
-Surrogate fit_surrogate(const std::vector<SurrogateSample>& samples,
-                        const SurrogateOptions& options) {
+Surrogate fit_surrogate(const std::vector<SurrogateSample>& samples, const std::string& condition) {
   check(samples);
-  if (!(std::isfinite(options.smoothing) && options.smoothing > 0.0))
-    throw meshes::InvalidInput({"smoothing", to_text(options.smoothing),
-                                "the weight of the curvature must be positive", "take 3e-7"});
   const Scaled s = scaled(samples);
   const SlopeBasis basis(knot_intervals);
-  const VectorXd coefficients = fitted(basis, s, options.smoothing);
+  const VectorXd coefficients = fitted(basis, s);
 
   SurrogateTable table;
   const VectorXd force = basis.integrals() * coefficients;
@@ -216,7 +214,7 @@ Surrogate fit_surrogate(const std::vector<SurrogateSample>& samples,
     table.stiffness.push_back(s.most / s.depth * basis.value(basis.knots()(k)).dot(coefficients));
     table.band.push_back(s.most * (quantile * uncertainty(k) + roughness(k)));
   }
-  table.condition = options.condition;
+  table.condition = condition;
   table.statement = statement_of(samples, s, residuals);
   return Surrogate(std::move(table));
 }

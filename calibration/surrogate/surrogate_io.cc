@@ -19,12 +19,11 @@ const std::map<std::string, std::string> column_units = {
 
 }  // namespace
 
-void write_surrogate_csv(const Surrogate& surrogate, const std::filesystem::path& file, int rows) {
-  if (rows < 2)
-    throw InvalidInput({"rows", std::to_string(rows), "a table has at least 2 rows", "take 65"});
+void write_surrogate_csv(const Surrogate& surrogate, const std::filesystem::path& file) {
+  constexpr int steps = 64;
   std::vector<SurrogateRow> table;
-  for (int row = 0; row < rows; ++row) {
-    const double x = surrogate.depth() * row / (rows - 1);
+  for (int row = 0; row <= steps; ++row) {
+    const double x = surrogate.depth() * row / steps;
     const double force = surrogate.force(x), band = surrogate.band(x);
     table.push_back({x, force, surrogate.stiffness(x), std::max(0.0, force - band), force + band});
   }

@@ -10,6 +10,7 @@
 
 #include "calibration/press_fit/lattice_forward_model.h"
 #include "calibration/statistics/curve_fit.h"
+#include "calibration/statistics/curve_residuals.h"
 #include "meshes/base/errors.h"
 
 namespace fit_fixtures {
@@ -60,6 +61,21 @@ inline PressSetup with_samples(PressSetup setup, const std::vector<double>& samp
   setup.protocol.samples = samples;
   setup.protocol.depth = samples.back();
   return setup;
+}
+
+/// A condition per curve: how it was pressed and by what lattice it is computed; depth and samples
+/// are the curve's.
+inline CurveFit fit_presses(const std::vector<Curve>& curves,
+                            const std::vector<PressSetup>& conditions,
+                            const CurveFitOptions& options,
+                            const std::function<bool()>& go_on = {}) {
+  check_curve_fit(curves, options);
+  std::vector<LatticeForwardModel> models;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    models.emplace_back(with_samples(conditions[i], curves[i].x), parameters_in(options), go_on);
+  std::vector<ForwardModel*> addresses;
+  for (LatticeForwardModel& model : models) addresses.push_back(&model);
+  return fit_curves(curves, addresses, options);
 }
 
 inline const std::vector<double> depths = {2e-4, 4e-4, 6e-4, 8e-4, 10e-4, 12e-4};  // [m]

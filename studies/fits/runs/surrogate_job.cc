@@ -57,10 +57,9 @@ std::vector<SurrogateSample> samples_of(const lattice::PressSetup& setup,
 void run_surrogate(const lattice::PressSetup& setup, const ForceUncertainty& uncertainty,
                    const fs::path& folder, const JobContext& context) {
   const auto go_on = [&] { return context.report(0.5, "pressing"); };
-  calibration::SurrogateOptions options;
-  options.condition = meshes::name(setup.protocol.contact);
-  const calibration::Surrogate surrogate = calibration::fit_surrogate(
-      samples_of(setup, uncertainty, answer(setup, uncertainty, go_on)), options);
+  const calibration::Surrogate surrogate =
+      calibration::fit_surrogate(samples_of(setup, uncertainty, answer(setup, uncertainty, go_on)),
+                                 std::string(meshes::name(setup.protocol.contact)));
   calibration::write_surrogate_csv(surrogate, folder / "surrogate.csv");
   calibration::write_surrogate_json(surrogate, folder / "surrogate.json");
   write_json({{"status", "finished"}, {"statement", surrogate.table().statement}},

@@ -144,8 +144,6 @@ TEST(LawFit, ABulkModulusComesFromAVolumetricTestAlone) {
   const LawFit fit = fit_law({tension, pressed}, neo);
   ASSERT_TRUE(fit.bulk_modulus);
   EXPECT_NEAR(*fit.bulk_modulus, 2e6, 1.0);
-  EXPECT_NEAR(rubber_of(fit, 0.49).bulk_modulus(), 2e6, 10.0);
-  EXPECT_NEAR(rubber_of(fit_law({tension}, neo), 0.49).poissons_ratio(), 0.49, 1e-9);
 }
 
 TEST(LawFit, AFactorOnTheForceOfStuckPlatesIsTakenOut) {
@@ -166,7 +164,7 @@ TEST(LawFit, UnstableCoefficientsAreToldWithTheirStretch) {
   // which is a tension of 0.735^-2 = 1.85.
   EXPECT_NEAR(fit.unstable_in_tests->stretch, 0.735, 0.001);
   EXPECT_NE(fit.contradictions[0].find("unstable (Drucker) from the stretch"), std::string::npos);
-  EXPECT_FALSE(rubber_of(fit, 0.49).energy.violations().empty());
+  EXPECT_FALSE(fit.law.energy.violations().empty());
 }
 
 /// Stress `modulus` times strain, nominal, to `strain` from rest, in ten equal steps.

@@ -10,10 +10,10 @@
 #include "calibration/material/moduli.h"
 #include "meshes/base/errors.h"
 #include "meshes/rubber/rubber.h"
+#include "tests/calibration/moduli/mechanisms.h"
 
 namespace {
 
-using fingertip::calibration::count_mechanisms;
 using fingertip::calibration::CubeModuli;
 using fingertip::calibration::ElasticModuli;
 using fingertip::calibration::homogenised_moduli;

@@ -10,6 +10,7 @@
 #include "calibration/moduli/fit_statement.h"
 #include "meshes/base/errors.h"
 #include "tests/calibration/infinite_lattice.h"
+#include "tests/calibration/moduli/mechanisms.h"
 
 namespace {
 
@@ -94,7 +95,7 @@ TEST(CentralFit, AttainsEAndGOfEveryRubberWithoutMechanisms) {
     EXPECT_GT(result.constants.k1, 0.0) << nu;
     EXPECT_GT(result.constants.k2, 0.0) << nu;
     EXPECT_GE(result.constants.k3, 0.0) << nu;
-    EXPECT_EQ(fingertip::calibration::count_mechanisms(
+    EXPECT_EQ(count_mechanisms(
                   fingertip::lattice::cube_lattice(ModelKind::central, result.constants, a, 1)),
               0)
         << nu;
