@@ -1,9 +1,7 @@
 #include "fem_reference/run.h"
 
 #include "fem_reference/job/job.h"
-#include "fem_reference/runs/modes.h"
-#include "fem_reference/runs/press_run.h"
-#include "fem_reference/runs/transient.h"
+#include "fem_reference/runs/runs.h"
 #include "fem_reference/solvers/solver_choice.h"
 #include "fem_reference/verification/verification.h"
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem_reference/analytic/thick_shell.h"
 
 #include <cmath>

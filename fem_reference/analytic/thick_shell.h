@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
 /// Hollow sphere, and long hollow cylinder held at constant length, under pressure inside and
 /// outside (Lamé 1852).
 #pragma once

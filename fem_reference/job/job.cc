@@ -20,6 +20,7 @@ namespace {
 using Json = nlohmann::json;
 using meshes::InvalidInput;
 using meshes::Violation;
+using meshes::visit_fields;
 
 template <class T>
 void get(const Json& value, T& target) {
@@ -33,15 +34,12 @@ void get(const Json& value, T& target) {
     if (!fits) throw std::invalid_argument("must be an integer of at most ten digits");
   }
   if constexpr (std::is_enum_v<T>) {
-    const auto wanted = value.get<std::string>();
     std::string list;
-    for (const T candidate : values(T())) {
+    for (const T candidate : values(T()))
       list += (list.empty() ? "" : ", ") + std::string(name(candidate));
-      if (name(candidate) != wanted) continue;
-      target = candidate;
-      return;
-    }
-    throw std::invalid_argument("must be one of " + list);
+    const auto found = meshes::enumerator<T>(value.get<std::string>());
+    if (!found) throw std::invalid_argument("must be one of " + list);
+    target = *found;
   } else {
     target = value.get<T>();
   }
@@ -118,46 +116,10 @@ std::shared_ptr<const meshes::Solid> read_surface(const std::filesystem::path& f
 
 }  // namespace
 
-std::string_view name(LinearSolver solver) {
-  switch (solver) {
-    case LinearSolver::automatic: return "automatic";
-    case LinearSolver::condensed: return "condensed";
-    case LinearSolver::multigrid: return "multigrid";
-  }
-  return "";
-}
-
-std::string_view name(Strain strain) {
-  return strain == Strain::linear ? "linear" : "finite";
-}
-
-std::string_view name(Analysis analysis) {
-  switch (analysis) {
-    case Analysis::static_press: return "static";
-    case Analysis::transient: return "transient";
-    case Analysis::modes: return "modes";
-    case Analysis::verification: return "verification";
-  }
-  return "";
-}
-
-std::string_view name(Volumetric volumetric) {
-  return volumetric == Volumetric::pointwise ? "pointwise" : "projected";
-}
-
 void ReferenceJob::press_to(std::vector<double> samples) {
   protocol.depth = samples.empty() ? 0.0 : samples.back();
   protocol.samples = std::move(samples);
   protocol.program.clear();
-}
-
-std::string_view name(Symmetry symmetry) {
-  switch (symmetry) {
-    case Symmetry::automatic: return "automatic";
-    case Symmetry::axisymmetric: return "axisymmetric";
-    case Symmetry::none: return "none";
-  }
-  return "";
 }
 
 bool ReferenceJob::axisymmetric() const {

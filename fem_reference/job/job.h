@@ -3,10 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
+#include "meshes/base/names.h"
 #include "meshes/press/fields.h"
+#include "meshes/tables/file_fields.h"
 
 namespace fingertip::fem_reference::inline job {
 
@@ -45,11 +46,31 @@ enum class Symmetry {
   none,          ///< as a solid
 };
 
-std::string_view name(LinearSolver solver);
-std::string_view name(Strain strain);
-std::string_view name(Analysis analysis);
-std::string_view name(Volumetric volumetric);
-std::string_view name(Symmetry symmetry);
+using meshes::name, meshes::values;
+constexpr auto names_of(LinearSolver) {
+  using enum LinearSolver;
+  return meshes::names<LinearSolver>(
+      {{automatic, "automatic"}, {condensed, "condensed"}, {multigrid, "multigrid"}});
+}
+constexpr auto names_of(Strain) {
+  return meshes::names<Strain>({{Strain::linear, "linear"}, {Strain::finite, "finite"}});
+}
+constexpr auto names_of(Analysis) {
+  using enum Analysis;
+  return meshes::names<Analysis>({{static_press, "static"},
+                                  {transient, "transient"},
+                                  {modes, "modes"},
+                                  {verification, "verification"}});
+}
+constexpr auto names_of(Volumetric) {
+  using enum Volumetric;
+  return meshes::names<Volumetric>({{pointwise, "pointwise"}, {mean_dilatation, "projected"}});
+}
+constexpr auto names_of(Symmetry) {
+  using enum Symmetry;
+  return meshes::names<Symmetry>(
+      {{automatic, "automatic"}, {axisymmetric, "axisymmetric"}, {none, "none"}});
+}
 
 /// One order to the continuum, SI.
 struct ReferenceJob {
@@ -86,45 +107,10 @@ struct ReferenceJob {
   std::vector<meshes::Violation> violations() const;
 };
 
-template <meshes::Fields<ReferenceJob> T>
-void visit_fields(T& job, auto&& visit) {
-  auto& [analysis, geometry, rubber, protocol, strain, symmetry, modes, degree, volumetric,
-         refinement, tolerance, max_unknowns, estimate_error, solver, solver_tolerance,
-         write_fields, field_sectors] = job;
-  visit("analysis", analysis, "");
-  visit("geometry", geometry, "");
-  visit("rubber", rubber, "");
-  visit("protocol", protocol, "");
-  visit("strain", strain, "");
-  visit("symmetry", symmetry, "");
-  visit("modes", modes, "");
-  visit("degree", degree, "");
-  visit("volumetric", volumetric, "");
-  visit("refinement", refinement, "");
-  visit("tolerance", tolerance, "");
-  visit("max_unknowns", max_unknowns, "");
-  visit("estimate_error", estimate_error, "");
-  visit("solver", solver, "");
-  visit("solver_tolerance", solver_tolerance, "");
-  visit("write_fields", write_fields, "");
-  visit("field_sectors", field_sectors, "");
-}
-
-constexpr auto values(LinearSolver) {
-  return std::array{LinearSolver::automatic, LinearSolver::condensed, LinearSolver::multigrid};
-}
-constexpr auto values(Strain) {
-  return std::array{Strain::linear, Strain::finite};
-}
-constexpr auto values(Analysis) {
-  return std::array{Analysis::static_press, Analysis::transient, Analysis::modes,
-                    Analysis::verification};
-}
-constexpr auto values(Volumetric) {
-  return std::array{Volumetric::pointwise, Volumetric::mean_dilatation};
-}
-constexpr auto values(Symmetry) {
-  return std::array{Symmetry::automatic, Symmetry::axisymmetric, Symmetry::none};
+constexpr auto fields_of(const ReferenceJob*) {
+  return FINGERTIP_FIELDS(ReferenceJob, analysis, geometry, rubber, protocol, strain, symmetry,
+                          modes, degree, volumetric, refinement, tolerance, max_unknowns,
+                          estimate_error, solver, solver_tolerance, write_fields, field_sectors);
 }
 
 /// JSON in and out (file `job.json` in the run folder). The surface of a solid, of which the job

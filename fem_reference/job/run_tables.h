@@ -54,29 +54,35 @@ constexpr auto fields_of(const PressureRow*) {
                     field("lateral_displacement [m]", &Row::lateral_displacement, Presence::newer)};
 }
 
-/// section.csv: ends of a mesh edge in y = 0: x1, z1, x2, z2 [m].
+/// section.csv: a mesh edge in the plane y = 0, or of a whole solid where its surface crosses it,
+/// as (x1, z1, x2, z2) in plane axes [m].
 struct SectionRow {
   std::array<double, 4> undeformed{};
   std::array<double, 4> deformed{};
 };
 constexpr auto fields_of(const SectionRow*) {
-  using meshes::field, meshes::Presence;
+  using meshes::field;
   using Row = SectionRow;
   return std::tuple{
       field("x1 [m],z1 [m],x2 [m],z2 [m]", &Row::undeformed),
       field("deformed_x1 [m],deformed_z1 [m],deformed_x2 [m],deformed_z2 [m]", &Row::deformed)};
 }
 
-/// transient.csv: forces on rod and plane.
-struct TransientRow {
-  double time = meshes::unknown;
-  double indentation = meshes::unknown;
-  double normal_force = meshes::unknown;
-  double contact_force = meshes::unknown;
+/// The state of the whole tip at the end of a time step; transient.csv tells the forces.
+struct TransientStep {
+  double time = 0.0;            ///< since first touch [s]
+  double indentation = 0.0;     ///< [m]
+  double normal_force = 0.0;    ///< of the bond on the rod, against the plane's normal [N]
+  double contact_force = 0.0;   ///< of the plane on the rubber [N]
+  double momentum = 0.0;        ///< of the rubber away from the plane, in the rod's frame [kg m/s]
+  double kinetic_energy = 0.0;  ///< in the rod's frame [J]
+  double elastic_energy = 0.0;  ///< of the branches, too [J]
+  double work = 0.0;  ///< on the rubber so far, of the plane and where the frame accelerates [J]
+  double dissipated_energy = 0.0;  ///< by damping and relaxation so far [J]
 };
-constexpr auto fields_of(const TransientRow*) {
-  using meshes::field, meshes::Presence;
-  using Row = TransientRow;
+constexpr auto fields_of(const TransientStep*) {
+  using meshes::field;
+  using Row = TransientStep;
   return std::tuple{field("time [s]", &Row::time), field("indentation [m]", &Row::indentation),
                     field("normal_force [N]", &Row::normal_force),
                     field("contact_force [N]", &Row::contact_force)};
@@ -91,7 +97,7 @@ struct ModeRow {
   int multiplicity = 0;
 };
 constexpr auto fields_of(const ModeRow*) {
-  using meshes::field, meshes::Presence;
+  using meshes::field;
   using Row = ModeRow;
   return std::tuple{field("mode", &Row::mode), field("frequency [Hz]", &Row::frequency),
                     field("frequency_error [Hz]", &Row::frequency_error),

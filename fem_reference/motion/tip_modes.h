@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fem_reference/job/job.h"
-#include "fem_reference/press/press_state.h"
+#include "fem_reference/job/press_state.h"
 
 namespace fingertip::fem_reference::inline motion {
 

@@ -16,7 +16,7 @@
 #include "fem_reference/job/processes.h"
 #include "fem_reference/motion/generalised_alpha.h"
 #include "fem_reference/output/press_fields.h"
-#include "fem_reference/press/press_course.h"
+#include "fem_reference/press/contact_edge.h"
 #include "fem_reference/solvers/solver_choice.h"
 #include "fem_reference/tip/tip_body.h"
 #include "meshes/base/errors.h"
@@ -48,264 +48,200 @@ double radius(const SurfaceNode& node) {
   return std::hypot(node.position.x(), node.position.y());
 }
 
-}  // namespace
-
-/// What TransientPress asks of a model, whatever its dimension.
-class TransientModel {
- public:
-  TransientModel(const ReferenceJob& the_job, std::function<bool()> stop)
-      : job(the_job), course(job.protocol, true), stop_requested(std::move(stop)) {
-    steps.push_back({});
-  }
-  virtual ~TransientModel() = default;
-
-  virtual MeshSummary mesh() const = 0;
-  /// One step to a place [m] of the course that takes `duration` [s].
-  virtual void step_to(double place, double duration, PressState& effort) = 0;
-  virtual PressState evaluate() const = 0;
-  virtual double bond_force() const = 0;
-  virtual void write_fields(const std::filesystem::path& file) const = 0;
-
-  const ReferenceJob job;
-  const PressCourse course;
-  double place = 0.0;  ///< [m]
-  const std::function<bool()> stop_requested;
-  double step_factor = 1.0;
-  std::vector<TransientStep> steps;
-};
-
-namespace {
-
 template <int dim>
-class TipInMotion final : public TransientModel {
+class TipInMotion final : public TransientPress {
  public:
-  TipInMotion(const ReferenceJob& the_job, std::unique_ptr<Body<dim>> the_body,
-              std::function<bool()> stop)
-      : TransientModel(the_job, std::move(stop)),
-        body(std::move(the_body)),
-        stiffness(job.rubber, job.volumetric),
-        mass(job.rubber.density),
-        solver_kind(choose_solver(job, double(body->unknowns()))),
-        motion(*body, stiffness, mass, job.rubber.retardation_time,
-               solver_kind == LinearSolver::multigrid, LinearMemory<dim>(*body, job)),
-        rubber_mass(job.rubber.density * volume(*body)) {
+  TipInMotion(const ReferenceJob& job, std::unique_ptr<Body<dim>> body,
+              std::function<bool()> stop_requested)
+      : TransientPress(job, std::move(stop_requested)),
+        body_(std::move(body)),
+        stiffness_(job.rubber, job.volumetric),
+        mass_(job.rubber.density),
+        solver_kind_(choose_solver(job, double(body_->unknowns()))),
+        motion_(*body_, stiffness_, mass_, job.rubber.retardation_time,
+                solver_kind_ == LinearSolver::multigrid, LinearMemory<dim>(*body_, job)),
+        rubber_mass_(job.rubber.density * volume(*body_)) {
     ContactUnknowns candidates =
-        contact_unknowns(within_reach(outer_nodes(*body), job.protocol, touch(),
-                                      bulge * job.protocol.samples.back()),
-                         job.protocol.contact != meshes::ContactMode::frictionless);
-    solver = make_solver(candidates.unknowns);
-    contact = std::make_unique<PlaneContact>(std::move(candidates), job.protocol.contact, pose(0.0),
-                                             job.protocol.friction, job.rubber.shear_modulus,
-                                             job.protocol.obstacle);
+        contact_unknowns(within_reach(outer_nodes(*body_), job_.protocol, touch(),
+                                      bulge * job_.protocol.samples.back()),
+                         job_.protocol.contact != meshes::ContactMode::frictionless);
+    solver_ = make_solver(candidates.unknowns);
+    contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.protocol.contact,
+                                              pose(0.0), job_.protocol.friction,
+                                              job_.rubber.shear_modulus, job_.protocol.obstacle);
   }
 
   MeshSummary mesh() const override {
-    return {std::size_t(body->triangulation.n_global_active_cells()), std::size_t(body->unknowns()),
-            contact->unknowns().unknowns.size(), solver_kind};
+    return {std::size_t(body_->triangulation.n_global_active_cells()),
+            std::size_t(body_->unknowns()), contact_->unknowns().unknowns.size(), solver_kind_};
   }
 
-  void step_to(double next, double duration, PressState& effort) override {
-    const meshes::Vector3 before = frame_acceleration(place), now = frame_acceleration(next);
-    const Vector rest = motion.displacement();
-    const Eigen::VectorXd reaction = contact->reactions();
-    const Eigen::VectorXd displacement = contact->committed().displacement;
-    const double dissipation = motion.dissipation_rate();
-    motion.set_step(duration, *solver);
-    solver->set_load(motion.load(now));
-    const ContactEffort spent = contact->solve(*solver, pose(course.at(next).indentation));
-    motion.advance(solver->field());
-    contact->commit();
+  void step_to(double next, double duration, PressEffort& effort) override {
+    const meshes::Vector3 before = frame_acceleration(place_), now = frame_acceleration(next);
+    const Vector rest = motion_.displacement();
+    const Eigen::VectorXd reaction = contact_->reactions();
+    const Eigen::VectorXd displacement = contact_->committed().displacement;
+    const double dissipation = motion_.dissipation_rate();
+    motion_.set_step(duration, *solver_);
+    solver_->set_load(motion_.load(now));
+    const ContactEffort spent = contact_->solve(*solver_, pose(course_.at(next).indentation));
+    motion_.advance(solver_->field());
+    contact_->commit();
     ++effort.steps;
     effort.active_set_iterations += spent.rounds;
     effort.cg_iterations += spent.cg_iterations;
     // Work and dissipation by the trapezoidal rule.
     double work =
         0.5 *
-        (reaction + contact->reactions()).dot(contact->committed().displacement - displacement);
+        (reaction + contact_->reactions()).dot(contact_->committed().displacement - displacement);
     const meshes::Vector3 mean = 0.5 * (before + now);
     if (!mean.isZero(0.0)) {
-      Vector travel = motion.displacement();
+      Vector travel = motion_.displacement();
       travel -= rest;
-      work += motion.inertial_force(mean) * travel;
+      work += motion_.inertial_force(mean) * travel;
     }
-    place = next;
+    place_ = next;
     record(copies<dim> * work,
-           copies<dim> * 0.5 * duration * (dissipation + motion.dissipation_rate()));
+           copies<dim> * 0.5 * duration * (dissipation + motion_.dissipation_rate()));
   }
 
   double bond_force() const override {
     const auto bond = dealii::types::boundary_id(meshes::PhysicalTag::bond);
-    double force = resultant(*body, motion.residual(), bond).z();
+    double force = resultant(*body_, motion_.residual(), bond).z();
     // In a frame that accelerates the bond's nodes carry what mass the free ones do not.
-    const meshes::Vector3 acceleration = frame_acceleration(place);
+    const meshes::Vector3 acceleration = frame_acceleration(place_);
     if (!acceleration.isZero(0.0)) {
-      const Vector carried = motion.inertial_force(acceleration);
-      force += rubber_mass * acceleration.z() + carried.mean_value() * double(carried.size());
+      const Vector carried = motion_.inertial_force(acceleration);
+      force += rubber_mass_ * acceleration.z() + carried.mean_value() * double(carried.size());
     }
     return copies<dim> * force;
   }
 
   PressState evaluate() const override {
     PressState state;
-    meshes::PressSample& sample = state.sample;
-    sample.indentation = steps.back().indentation;
-    sample.time = steps.back().time;
-    sample.normal_force = steps.back().normal_force;
-    sample.lateral_force_x = sample.lateral_force_y = 0.0;  // by symmetry
-    sample.lateral_displacement = 0.0;
-    sample.torque_x = sample.torque_y = sample.torque_z = 0.0;
-    state.energy = steps.back().elastic_energy;
-    state.active_nodes = contact->active_nodes();
+    state.indentation = steps_.back().indentation;
+    state.time = steps_.back().time;
+    state.normal_force = steps_.back().normal_force;
+    state.lateral_force_x = state.lateral_force_y = 0.0;  // by symmetry
+    state.lateral_displacement = 0.0;
+    state.torque_x = state.torque_y = state.torque_z = 0.0;
+    state.energy = steps_.back().elastic_energy;
+    state.active_nodes = contact_->active_nodes();
     double outermost = 0.0;
-    for (std::size_t i = 0; i < contact->status().size(); ++i) {
-      const SurfaceNode& node = contact->unknowns().nodes[i];
-      if (contact->status()[i] == NodeStatus::open || node.area == 0.0) continue;
-      state.contact.push_back({radius(node), -contact->reaction(i).z() / node.area});
+    for (std::size_t i = 0; i < contact_->status().size(); ++i) {
+      const SurfaceNode& node = contact_->unknowns().nodes[i];
+      if (contact_->status()[i] == NodeStatus::open || node.area == 0.0) continue;
+      state.contact.push_back({radius(node), -contact_->reaction(i).z() / node.area});
       if (radius(node) < outermost) continue;
       outermost = radius(node);
       state.node_spacing = dim == 2 ? node.area / circumference(dealii::Point<2>(radius(node), 0.0))
                                     : std::sqrt(node.area);
     }
-    std::ranges::sort(state.contact, {}, &ContactPoint::radius);
-    sample.contact_radius = contact_edge(state.contact, state.node_spacing, dim == 2 ? 1 : 4);
-    sample.max_pressure =
-        state.contact.empty()
-            ? 0.0
-            : std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
+    measure_contact(state, dim == 2 ? 1 : 4);
     return state;
   }
 
   void write_fields(const std::filesystem::path& file) const override {
     using namespace dealii::DataComponentInterpretation;
-    const Space<dim>& space = body->fine;
-    const Vector u = space.ghosted(motion.displacement());
-    const Vector v = space.ghosted(motion.velocity());
+    const Space<dim>& space = body_->fine;
+    const Vector u = space.ghosted(motion_.displacement());
+    const Vector v = space.ghosted(motion_.velocity());
     const std::vector<DataComponentInterpretation> vector(dim, component_is_part_of_vector);
     // With Kelvin-Voigt damping the stress is that of u + tau v.
-    Vector strained = motion.displacement();
-    strained.add(job.rubber.retardation_time, motion.velocity());
-    const StressField<dim> stress(*body, job, strained, {motion.memory().past(), {}});
-    const ContactField<dim> touch(*body, *contact, outer_area(*body, nullptr));
+    Vector strained = motion_.displacement();
+    strained.add(job_.rubber.retardation_time, motion_.velocity());
+    const StressField<dim> stress(*body_, job_, strained, {motion_.memory().past(), {}});
+    const ContactField<dim> touch(*body_, *contact_, outer_area(*body_, nullptr));
     FieldOutput<dim> out;
     out.add_data_vector(space.dofs, u, std::vector<std::string>(dim, "displacement"), vector);
     out.add_data_vector(space.dofs, v, std::vector<std::string>(dim, "velocity"), vector);
     stress.add_to(out);
     touch.add_to(out);
-    out.build_patches(body->mapping, unsigned(job.degree),
+    out.build_patches(body_->mapping, unsigned(job_.degree),
                       dealii::DataOut<dim>::curved_inner_cells);
-    out.write(file, job.field_sectors);
+    out.write(file, job_.field_sectors);
   }
 
  private:
   std::unique_ptr<FieldSolver> make_solver(const std::vector<long>& unknowns) const {
     if constexpr (dim == 3)
-      if (solver_kind == LinearSolver::multigrid)
-        return make_multigrid_solver(*body, unknowns, job.solver_tolerance);
-    return make_condensed_solver(*body, unknowns);
+      if (solver_kind_ == LinearSolver::multigrid)
+        return make_multigrid_solver(*body_, unknowns, job_.solver_tolerance);
+    return make_condensed_solver(*body_, unknowns);
   }
 
   /// Of the rod, whose axis the press follows.
   meshes::Vector3 frame_acceleration(double at) const {
-    return course.acceleration(at) * meshes::Vector3::UnitZ();
+    return course_.acceleration(at) * meshes::Vector3::UnitZ();
   }
-  double touch() const { return meshes::first_touch(job.geometry, 0.0, job.protocol.obstacle); }
+  double touch() const { return meshes::first_touch(job_.geometry, 0.0, job_.protocol.obstacle); }
   PlanePose pose(double indentation) const { return {touch() - indentation, 0.0}; }
 
   void record(double work, double dissipated) {
     double push = 0.0;
-    for (std::size_t i = 0; i < contact->unknowns().nodes.size(); ++i)
-      push -= contact->reaction(i).z();
-    const MechanicalEnergy energy = motion.energy();
-    const TransientStep& last = steps.back();
+    for (std::size_t i = 0; i < contact_->unknowns().nodes.size(); ++i)
+      push -= contact_->reaction(i).z();
+    const MechanicalEnergy energy = motion_.energy();
+    const TransientStep& last = steps_.back();
     TransientStep next;
-    next.time = course.time(place);
-    next.indentation = course.at(place).indentation;
+    next.time = course_.time(place_);
+    next.indentation = course_.at(place_).indentation;
     next.contact_force = copies<dim> * push;
     // In a frame that accelerates by b the momentum of space changes by mass times b more.
     next.normal_force =
         next.contact_force +
-        copies<dim> * (motion.momentum_rate().z() + rubber_mass * course.acceleration(place));
-    next.momentum = -copies<dim> * motion.momentum().z();
+        copies<dim> * (motion_.momentum_rate().z() + rubber_mass_ * course_.acceleration(place_));
+    next.momentum = -copies<dim> * motion_.momentum().z();
     next.kinetic_energy = copies<dim> * energy.kinetic;
     next.elastic_energy = copies<dim> * energy.elastic;
     next.work = last.work + work;
     next.dissipated_energy = last.dissipated_energy + dissipated;
-    steps.push_back(next);
+    steps_.push_back(next);
   }
 
-  std::unique_ptr<Body<dim>> body;
-  HookeKernel<dim> stiffness;
-  MassKernel<dim> mass;
-  LinearSolver solver_kind;
-  GeneralisedAlpha<dim> motion;
-  double rubber_mass;  ///< of what is meshed [kg]
-  std::unique_ptr<PlaneContact> contact;
-  std::unique_ptr<FieldSolver> solver;
+  std::unique_ptr<Body<dim>> body_;
+  HookeKernel<dim> stiffness_;
+  MassKernel<dim> mass_;
+  LinearSolver solver_kind_;
+  GeneralisedAlpha<dim> motion_;
+  double rubber_mass_;  ///< of what is meshed [kg]
+  std::unique_ptr<PlaneContact> contact_;
+  std::unique_ptr<FieldSolver> solver_;
 };
-
-std::unique_ptr<TransientModel> make_model(const ReferenceJob& job,
-                                           const std::filesystem::path& mesh_file,
-                                           const std::filesystem::path& adapted,
-                                           std::function<bool()> stop) {
-  if (job.axisymmetric())
-    return std::make_unique<TipInMotion<2>>(job, read_body<2>(job, mesh_file, adapted),
-                                            std::move(stop));
-  return std::make_unique<TipInMotion<3>>(job, read_body<3>(job, mesh_file, adapted),
-                                          std::move(stop));
-}
 
 }  // namespace
 
-TransientPress::TransientPress(const ReferenceJob& job, const std::filesystem::path& mesh_file,
-                               const std::filesystem::path& adapted,
-                               std::function<bool()> stop_requested)
-    : model_(make_model(job, mesh_file, adapted, std::move(stop_requested))) {}
-
-TransientPress::~TransientPress() = default;
-
-MeshSummary TransientPress::mesh() const {
-  return model_->mesh();
-}
-
-void TransientPress::set_step_factor(double factor) {
-  model_->step_factor = factor;
+std::unique_ptr<TransientPress> TransientPress::on(const ReferenceJob& job,
+                                                   const std::filesystem::path& mesh_file,
+                                                   const std::filesystem::path& adapted,
+                                                   std::function<bool()> stop_requested) {
+  if (job.axisymmetric())
+    return std::make_unique<TipInMotion<2>>(job, read_body<2>(job, mesh_file, adapted),
+                                            std::move(stop_requested));
+  return std::make_unique<TipInMotion<3>>(job, read_body<3>(job, mesh_file, adapted),
+                                          std::move(stop_requested));
 }
 
 PressState TransientPress::advance(double place) {
-  TransientModel& self = *model_;
   const auto start = std::chrono::steady_clock::now();
-  const double first = self.place, way = place - first;
-  const PressCourse::Leg& leg = self.course.leg(place);
-  double longest = longest_step * self.job.geometry.thickness() / std::max(1.0, leg.rate);
+  const double first = place_, way = place - first;
+  const PressCourse::Leg& leg = course_.leg(place);
+  double longest = longest_step * job_.geometry.thickness() / std::max(1.0, leg.rate);
   if (leg.rate > 0.0)
     longest = std::min(longest, longest_step_to_sample * (place - leg.begin));
   else  // what shook has died
     longest = std::max(longest, longest_step_to_sample * (first - leg.begin));
-  const int count = std::max(1, int(std::ceil(way / (self.step_factor * longest) - 1e-9)));
-  const double duration = way / count / self.job.protocol.speed;
-  PressState effort;
+  const int count = std::max(1, int(std::ceil(way / (step_factor_ * longest) - 1e-9)));
+  const double duration = way / count / job_.protocol.speed;
+  PressEffort effort;
   for (int i = 1; i <= count; ++i) {
-    stop_if_asked(self.stop_requested);
-    self.step_to(i == count ? place : first + way * i / count, duration, effort);
+    stop_if_asked(stop_requested_);
+    step_to(i == count ? place : first + way * i / count, duration, effort);
   }
-  PressState state = self.evaluate();
-  state.steps = effort.steps;
-  state.active_set_iterations = effort.active_set_iterations;
-  state.cg_iterations = effort.cg_iterations;
+  PressState state = evaluate();
+  static_cast<PressEffort&>(state) = effort;
   state.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return state;
-}
-
-double TransientPress::bond_force() const {
-  return model_->bond_force();
-}
-
-const std::vector<TransientStep>& TransientPress::steps() const {
-  return model_->steps;
-}
-
-void TransientPress::write_fields(const std::filesystem::path& file) const {
-  model_->write_fields(file);
 }
 
 }  // namespace fingertip::fem_reference::inline motion

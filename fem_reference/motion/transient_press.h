@@ -4,27 +4,14 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include "fem_reference/job/job.h"
-#include "fem_reference/press/press_state.h"
+#include "fem_reference/job/press_state.h"
+#include "fem_reference/job/run_tables.h"
+#include "fem_reference/press/press_course.h"
 
 namespace fingertip::fem_reference::inline motion {
-
-/// The state of the whole tip at the end of a time step.
-struct TransientStep {
-  double time = 0.0;            ///< since first touch [s]
-  double indentation = 0.0;     ///< [m]
-  double normal_force = 0.0;    ///< of the bond on the rod, against the plane's normal [N]
-  double contact_force = 0.0;   ///< of the plane on the rubber [N]
-  double momentum = 0.0;        ///< of the rubber away from the plane, in the rod's frame [kg m/s]
-  double kinetic_energy = 0.0;  ///< in the rod's frame [J]
-  double elastic_energy = 0.0;  ///< of the branches, too [J]
-  double work = 0.0;  ///< on the rubber so far, of the plane and where the frame accelerates [J]
-  double dissipated_energy = 0.0;  ///< by damping and relaxation so far [J]
-};
-
-class TransientModel;
 
 /// The press of ContinuumPress at the job's speed: small strain, frictionless or stick, along the
 /// axis, Kelvin-Voigt damping C = tau K of the moduli after long times, relaxation, consistent mass
@@ -44,17 +31,18 @@ class TransientPress {
  public:
   /// On the mesh of a quarter or meridian (`sector(job)`), or on one that `ContinuumPress::save`
   /// left in `adapted` for the same `mesh_file` (empty: none). Throws InvalidInput.
-  TransientPress(const ReferenceJob& job, const std::filesystem::path& mesh_file,
-                 const std::filesystem::path& adapted = {},
-                 std::function<bool()> stop_requested = {});
-  ~TransientPress();
+  static std::unique_ptr<TransientPress> on(const ReferenceJob& job,
+                                            const std::filesystem::path& mesh_file,
+                                            const std::filesystem::path& adapted = {},
+                                            std::function<bool()> stop_requested = {});
+  virtual ~TransientPress() = default;
   TransientPress(const TransientPress&) = delete;
   TransientPress& operator=(const TransientPress&) = delete;
 
-  MeshSummary mesh() const;
+  virtual MeshSummary mesh() const = 0;
 
   /// Multiplies the longest time step, > 0; 1 at first.
-  void set_step_factor(double factor);
+  void set_step_factor(double factor) { step_factor_ = factor; }
 
   /// Presses on to a place [m] of the job's PressCourse, beyond the present one; without a program
   /// an indentation. Throws NotConverged; Interrupted between steps once `stop_requested` says so.
@@ -62,16 +50,30 @@ class TransientPress {
 
   /// normal_force of the last step once more, from the residual at the bond instead of the balance
   /// of momentum [N].
-  double bond_force() const;
+  virtual double bond_force() const = 0;
 
   /// Every step so far.
-  const std::vector<TransientStep>& steps() const;
+  const std::vector<TransientStep>& steps() const { return steps_; }
 
   /// VTU of the last step: displacement [m], velocity [m/s] in the rod's frame.
-  void write_fields(const std::filesystem::path& file) const;
+  virtual void write_fields(const std::filesystem::path& file) const = 0;
+
+ protected:
+  TransientPress(const ReferenceJob& job, std::function<bool()> stop_requested)
+      : job_(job), course_(job.protocol, true), stop_requested_(std::move(stop_requested)) {}
+
+  /// One step to a place [m] of the course that takes `duration` [s].
+  virtual void step_to(double place, double duration, PressEffort& effort) = 0;
+  virtual PressState evaluate() const = 0;
+
+  const ReferenceJob job_;
+  const PressCourse course_;
+  double place_ = 0.0;  ///< [m]
+  std::vector<TransientStep> steps_{TransientStep{}};
 
  private:
-  std::unique_ptr<TransientModel> model_;
+  const std::function<bool()> stop_requested_;
+  double step_factor_ = 1.0;
 };
 
 }  // namespace fingertip::fem_reference::inline motion

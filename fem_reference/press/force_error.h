@@ -4,6 +4,8 @@
 #include <limits>
 #include <span>
 
+#include "meshes/base/names.h"
+
 namespace fingertip::fem_reference::inline press {
 
 /// The force that one mesh gave.
@@ -20,6 +22,15 @@ enum class MeshConvergence {
   irregular,    ///< the last step did not shrink, or one of the two is exactly zero
   unknown,      ///< fewer than three meshes, or all three forces equal: nothing to judge
 };
+
+using meshes::name;
+constexpr auto names_of(MeshConvergence) {
+  using enum MeshConvergence;
+  return meshes::names<MeshConvergence>({{monotone, "monotone"},
+                                         {oscillatory, "oscillatory"},
+                                         {irregular, "irregular"},
+                                         {unknown, "unknown"}});
+}
 
 struct ForceError {
   /// Bound on |F_fine - F_exact| [N] that holds in about 19 of 20 cases; NaN when not estimable.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
+
+#include "meshes/tables/fields_json.h"
 
 namespace fingertip::fem_reference::inline press {
 namespace {
@@ -20,64 +23,35 @@ constexpr double excess_per_indicator = 2.0;
 
 /// w, by which edge errors of different samples are compared [N].
 double edge_scale(const PressState& state) {
-  const double share = state.node_spacing / state.sample.contact_radius;
-  return state.sample.normal_force * share * share;
+  const double share = state.node_spacing / state.contact_radius;
+  return state.normal_force * share * share;
 }
 
-/// JSON has no NaN; an unknown quantity is null.
-Json known(double value) {
-  return std::isnan(value) ? Json() : Json(value);
-}
-
-double value_of(const Json& json) {
-  return json.is_null() ? meshes::unknown : json.get<double>();
-}
-
-constexpr std::pair<const char*, double meshes::PressSample::*> sample_entries[] = {
-    {"indentation", &meshes::PressSample::indentation},
-    {"normal_force", &meshes::PressSample::normal_force},
-    {"lateral_force_x", &meshes::PressSample::lateral_force_x},
-    {"lateral_force_y", &meshes::PressSample::lateral_force_y},
-    {"torque_x", &meshes::PressSample::torque_x},
-    {"torque_y", &meshes::PressSample::torque_y},
-    {"torque_z", &meshes::PressSample::torque_z},
-    {"contact_radius", &meshes::PressSample::contact_radius},
-    {"max_pressure", &meshes::PressSample::max_pressure},
-    {"time", &meshes::PressSample::time},
-    {"lateral_displacement", &meshes::PressSample::lateral_displacement},
-    {"stage", &meshes::PressSample::stage}};
-constexpr std::pair<const char*, double PressState::*> real_entries[] = {
-    {"node_spacing", &PressState::node_spacing},
-    {"min_jacobian", &PressState::min_jacobian},
-    {"energy", &PressState::energy},
-    {"indicator", &PressState::indicator},
-    {"wall_time", &PressState::wall_time}};
-constexpr std::pair<const char*, int PressState::*> whole_entries[] = {
-    {"steps", &PressState::steps},
-    {"newton_iterations", &PressState::newton_iterations},
-    {"active_set_iterations", &PressState::active_set_iterations},
-    {"cg_iterations", &PressState::cg_iterations},
-    {"active_nodes", &PressState::active_nodes},
-    {"sliding_nodes", &PressState::sliding_nodes}};
-
+/// All of a state but its errors: what files tell of it and of its sample, and the rest.
 Json state_to_json(const PressState& state) {
-  Json json;
-  for (const auto& [key, member] : sample_entries) json[key] = known(state.sample.*member);
-  for (const auto& [key, member] : real_entries) json[key] = known(state.*member);
-  for (const auto& [key, member] : whole_entries) json[key] = state.*member;
-  Json points = Json::array();
-  for (const ContactPoint& point : state.contact) points.push_back({point.radius, point.pressure});
-  json["contact"] = points;
+  Json json = meshes::json_of<Json>(state);
+  json["sample"] = meshes::json_of<Json>(static_cast<const meshes::PressSample&>(state));
+  json["indicator"] = state.indicator;
+  json["contact"] = Json::array();
+  for (const ContactPoint& point : state.contact)
+    json["contact"].push_back({point.radius, point.pressure});
   return json;
+}
+
+/// What is unknown is null, or not there.
+template <class Struct>
+void take(const Json& json, Struct& into) {
+  meshes::for_each_field<Struct>([&](const auto& field) {
+    const auto found = json.find(std::string(field.name));
+    if (found != json.end() && !found->is_null()) found->get_to(std::invoke(field.member, into));
+  });
 }
 
 PressState state_from_json(const Json& json) {
   PressState state;
-  // A checkpoint of an earlier version has no stage and no indicator.
-  for (const auto& [key, member] : sample_entries)
-    state.sample.*member = value_of(json.value(key, Json()));
-  for (const auto& [key, member] : real_entries) state.*member = value_of(json.value(key, Json()));
-  for (const auto& [key, member] : whole_entries) state.*member = json.at(key).get<int>();
+  take(json.at("sample"), static_cast<meshes::PressSample&>(state));
+  take(json, state);
+  json.at("indicator").get_to(state.indicator);
   for (const Json& point : json.at("contact"))
     state.contact.push_back({point.at(0).get<double>(), point.at(1).get<double>()});
   return state;
@@ -104,18 +78,17 @@ ForceError MeshHistory::error(std::size_t index) const {
     error.value = 0.0;
     for (const MeshRecord& record : meshes_)
       if (index < record.states.size())
-        error.value = std::max(error.value, record.states[index].sample.normal_force);
+        error.value = std::max(error.value, record.states[index].normal_force);
     return error;
   }
   if (std::isnan(error.value)) return error;
   const PressState& state = *finest;
   const double typical = typical_edge_error() * edge_scale(state);
   if (typical > error.value) error.value = typical;
-  const double excess =
-      excess_per_indicator * state.indicator / state.energy * state.sample.normal_force;
+  const double excess = excess_per_indicator * state.indicator / state.energy * state.normal_force;
   if (excess > error.value) error.value = excess;
   error.value *= safety_;
-  if (index < step_errors_.size()) error.value += step_errors_[index] * state.sample.normal_force;
+  if (index < step_errors_.size()) error.value += step_errors_[index] * state.normal_force;
   return error;
 }
 
@@ -137,7 +110,7 @@ ForceError MeshHistory::edge_error(std::size_t index) const {
   for (const MeshRecord& record : meshes_) {
     if (index >= record.states.size() || !(record.states[index].node_spacing > 0.0)) continue;
     const PressState& state = record.states[index];
-    const MeshForce next{std::pow(state.node_spacing, -3.0), state.sample.normal_force};
+    const MeshForce next{std::pow(state.node_spacing, -3.0), state.normal_force};
     const bool finer =
         sequence.empty() || std::cbrt(next.unknowns / sequence.back().unknowns) > min_refinement;
     if (finer)
@@ -155,17 +128,22 @@ std::vector<PressState> MeshHistory::best() const {
       if (i == result.size()) result.emplace_back();
       result[i] = record.states[i];
     }
-  for (std::size_t i = 0; i < result.size(); ++i) result[i].sample.force_error = error(i).value;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const ForceError found = error(i);
+    result[i].force_error = found.value;
+    result[i].convergence = name(found.convergence);
+    result[i].order = found.order;
+  }
   return result;
 }
 
 std::vector<double> MeshHistory::relative_errors() const {
   const std::vector<PressState> states = best();
   double largest = 0.0;
-  for (const PressState& state : states) largest = std::max(largest, state.sample.normal_force);
+  for (const PressState& state : states) largest = std::max(largest, state.normal_force);
   std::vector<double> errors;
   for (const PressState& state : states) {
-    const double force = state.sample.normal_force, error = state.sample.force_error,
+    const double force = state.normal_force, error = state.force_error,
                  least = min_share_ * largest;
     constexpr double none = 1e-3;  // of that, a force is round-off where it should vanish
     const bool vanishes = error == 0.0 || (std::isnan(error) && force < none * least);

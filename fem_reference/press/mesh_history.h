@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "fem_reference/job/press_state.h"
 #include "fem_reference/press/force_error.h"
-#include "fem_reference/press/press_state.h"
 
 namespace fingertip::fem_reference::inline press {
 
@@ -34,7 +34,7 @@ class MeshHistory {
 
   const std::vector<MeshRecord>& meshes() const { return meshes_; }
   MeshRecord& finest() { return meshes_.back(); }
-  /// Each sample from the finest mesh on which it has been computed, with its `force_error`.
+  /// Each sample from the finest mesh on which it has been computed, with its error().
   std::vector<PressState> best() const;
   /// Error of sample `index` on the finest mesh that has it: the safety times max(e, m w, b), and
   /// the steps' share; NaN while e is. Where nothing touches the largest force of a coarser mesh.

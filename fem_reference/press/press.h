@@ -6,8 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "fem_reference/job/job.h"
-#include "fem_reference/press/press_state.h"
+#include "fem_reference/job/press_state.h"
+#include "fem_reference/job/run_tables.h"
+#include "fem_reference/press/press_course.h"
 
 namespace fingertip::fem_reference::inline press {
 
@@ -21,23 +22,25 @@ struct PressSnapshot;
 /// All processes of MPI_COMM_WORLD take part in every call.
 class ContinuumPress {
  public:
+  static constexpr double usual_relaxing_step = 1.0 / 64.0;
+
   /// Reads the first mesh, which must be of the sector that `sector(job)` names. Throws
   /// InvalidInput for a mesh that cannot be read.
-  ContinuumPress(const ReferenceJob& job, const std::filesystem::path& mesh_file,
-                 std::function<bool()> stop_requested = {});
-  ~ContinuumPress();
-  static constexpr double usual_relaxing_step = 1.0 / 64.0;
+  static std::unique_ptr<ContinuumPress> on(const ReferenceJob& job,
+                                            const std::filesystem::path& mesh_file,
+                                            std::function<bool()> stop_requested = {});
+  virtual ~ContinuumPress() = default;
   ContinuumPress(const ContinuumPress&) = delete;
   ContinuumPress& operator=(const ContinuumPress&) = delete;
 
-  MeshSummary mesh() const;
+  virtual MeshSummary mesh() const = 0;
 
   /// Longest step in units of R - r; at first 0.01, or 0.1 where nothing sticks.
-  void set_longest_step(double step);
+  void set_longest_step(double step) { steps_.longest = step; }
   /// Longest step of a rubber that relaxes, over the time since first touch or since the program's
   /// stage began; at first `usual_relaxing_step`, with which forces at large strain are within 0.03
   /// % of those of ever smaller steps, at small strain within 0.01 %.
-  void set_relaxing_step(double share);
+  void set_relaxing_step(double share) { steps_.of_relaxing = share; }
 
   /// Moves on to `place` [m] of the job's PressCourse, at least the present one. Throws
   /// NotConverged, which leaves the press at the last step that converged; Interrupted between
@@ -51,28 +54,54 @@ class ContinuumPress {
   /// at contact edges: all that are too coarse for the contact's radius, and of samples wanted by
   /// name every one.
   /// False, and the press cannot go on, when the mesh would exceed the job's `max_unknowns`.
-  bool refine(double share, const std::vector<char>& wanted = {});
+  virtual bool refine(double share, const std::vector<char>& wanted = {}) = 0;
 
   /// The last sample, to be written later but before the mesh is refined.
-  std::shared_ptr<const PressSnapshot> snapshot() const;
+  virtual std::shared_ptr<const PressSnapshot> snapshot() const = 0;
   /// VTU of a sample: displacement [m], stress, von Mises stress [Pa], and on the contact surface
   /// pressure and shear of the plane [Pa] and status (0 open, 1 stick, 2 slide).
-  void write_fields(const PressSnapshot& state, const std::filesystem::path& file) const;
+  virtual void write_fields(const PressSnapshot& state,
+                            const std::filesystem::path& file) const = 0;
   /// The mesh's edges in the plane y = 0 at a sample, complete on the first process.
-  std::vector<SectionEdge> section(const PressSnapshot& state) const;
+  virtual std::vector<SectionRow> section(const PressSnapshot& state) const = 0;
 
   /// Force with which the rod holds the sector's bond surface at the last sample, from the residual
   /// there, in plane axes [N].
-  meshes::Vector3 bond_reaction() const;
+  virtual meshes::Vector3 bond_reaction() const = 0;
 
   /// Saves or restores mesh, solution, contact state and what the rubber remembers; `folder` must
   /// exist.
-  void save(const std::filesystem::path& folder) const;
-  void load(const std::filesystem::path& folder);
+  virtual void save(const std::filesystem::path& folder) const = 0;
+  virtual void load(const std::filesystem::path& folder) = 0;
+
+ protected:
+  ContinuumPress(const ReferenceJob& job, std::function<bool()> stop_requested);
+
+  /// One step to `place` [m]; adds what it cost to `effort`. Throws NotConverged.
+  virtual void step(double place, bool sampled, PressEffort& effort) = 0;
+  /// Back to the last step that converged.
+  virtual void abandon() = 0;
+  /// Reads the sample off the present state and remembers where its error is large.
+  virtual PressState evaluate() = 0;
+
+  const ReferenceJob job_;
+  const PressCourse course_;
+  double place_ = 0.0;  ///< on the course [m]
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  /// Steps, as fractions of the first sample, of the way so far (contact grows fastest at first
+  /// touch), and of R - r; those of a rubber that relaxes as shares of the way from where the stage
+  /// began to the next sample, for the rate of strain counts as constant within a step.
+  struct Steps {
+    double first, growth, longest, of_relaxing = usual_relaxing_step;
+  };
+  bool frictionless() const { return job_.protocol.contact == meshes::ContactMode::frictionless; }
+  bool relaxes() const { return !job_.rubber.relaxation.empty(); }
+  bool one_step() const { return frictionless() && job_.strain == Strain::linear && !relaxes(); }
+  double next_step(double target, double limit) const;
+
+  const std::function<bool()> stop_requested_;
+  Steps steps_;
 };
 
 }  // namespace fingertip::fem_reference::inline press

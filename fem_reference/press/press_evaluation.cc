@@ -15,6 +15,7 @@
 #include <numbers>
 
 #include "fem_reference/elements/kinematics.h"
+#include "fem_reference/press/contact_edge.h"
 #include "fem_reference/press/press_model.h"
 #include "fem_reference/tip/job_mesh.h"
 
@@ -54,14 +55,14 @@ template <int dim>
 PressState TipPress<dim>::evaluate() {
   PressState state;
   const meshes::PressPose pose = course_.at(place_);
-  state.sample.indentation = pose.indentation;
-  state.sample.lateral_displacement = pose.lateral;
+  state.indentation = pose.indentation;
+  state.lateral_displacement = pose.lateral;
   state.active_nodes = contact_->active_nodes();
   state.sliding_nodes = job_.protocol.contact == meshes::ContactMode::coulomb
                             ? int(std::ranges::count(contact_->status(), NodeStatus::slide))
                             : 0;
   solver_->forget();
-  if (!job_.rubber.relaxation.empty()) state.sample.time = course_.time(place_);
+  if (!job_.rubber.relaxation.empty()) state.time = course_.time(place_);
   if (job_.strain == Strain::finite) {
     state.min_jacobian = system_->min_jacobian;
     if (!point_memory_.empty())  // the last kernel was a step's
@@ -125,29 +126,21 @@ void TipPress<dim>::add_resultant(PressState& state) const {
     touched += area;
     if (nodes[i].area > 0.0) state.contact.push_back({radius(position), contact_->push(i) / area});
   }
-  std::ranges::sort(state.contact, {}, &ContactPoint::radius);
-
-  meshes::PressSample& sample = state.sample;
-  sample.normal_force = -sectors * force.z();
+  state.normal_force = -sectors * force.z();
   torque = to_rod * torque;
   // What breaks no symmetry vanishes.
   const bool whole = sector_ == meshes::Sector::full,
              along_x = whole || sector_ == meshes::Sector::half;
-  sample.lateral_force_x = along_x ? sectors * force.x() : 0.0;
-  sample.torque_y = along_x ? sectors * torque.y() : 0.0;
-  sample.lateral_force_y = whole ? force.y() : 0.0;
-  sample.torque_x = whole ? torque.x() : 0.0;
-  sample.torque_z = whole ? torque.z() : 0.0;
-  sample.contact_radius = sample.max_pressure = 0.0;
-  if (state.contact.empty()) return;
-  sample.max_pressure = std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
-  state.node_spacing = spacing_around(outer_nodes_, outermost(),
-                                      [this](const meshes::Vector3& at) { return radius(at); });
-  if (is_round()) {
-    sample.contact_radius = contact_edge(state.contact, state.node_spacing, dim == 2 ? 1 : 4);
-  } else {
-    sample.contact_radius = std::sqrt(sectors * touched / std::numbers::pi);
-  }
+  state.lateral_force_x = along_x ? sectors * force.x() : 0.0;
+  state.torque_y = along_x ? sectors * torque.y() : 0.0;
+  state.lateral_force_y = whole ? force.y() : 0.0;
+  state.torque_x = whole ? torque.x() : 0.0;
+  state.torque_z = whole ? torque.z() : 0.0;
+  if (!state.contact.empty())
+    state.node_spacing = spacing_around(outer_nodes_, outermost(),
+                                        [this](const meshes::Vector3& at) { return radius(at); });
+  measure_contact(state, dim == 2 ? 1 : 4);
+  if (!is_round()) state.contact_radius = std::sqrt(sectors * touched / std::numbers::pi);
 }
 
 template <int dim>

@@ -47,8 +47,9 @@ meshes::Vector3 contact_centre(const ReferenceJob& job) {
 }  // namespace
 
 template <int dim>
-TipPress<dim>::TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file)
-    : PressModel(job),
+TipPress<dim>::TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file,
+                        std::function<bool()> stop_requested)
+    : ContinuumPress(job, std::move(stop_requested)),
       sector_(sector(job)),
       touch_(meshes::first_touch(job.geometry, job.protocol.tilt, job.protocol.obstacle)),
       centre_(contact_centre(job)),
@@ -107,12 +108,7 @@ PlanePose TipPress<dim>::pose(double place) const {
 }
 
 template <int dim>
-void TipPress<dim>::abandon() {
-  contact_->abandon();
-}
-
-template <int dim>
-void TipPress<dim>::step(double place, bool sampled, PressState& effort) {
+void TipPress<dim>::step(double place, bool sampled, PressEffort& effort) {
   const PlanePose target = pose(place);
   const Vector before = displacement_;
   prepare_step(course_.time(place - place_));
@@ -150,7 +146,7 @@ void TipPress<dim>::prepare_step(double duration) {
 }
 
 template <int dim>
-void TipPress<dim>::linear_step(const PlanePose& target, PressState& effort) {
+void TipPress<dim>::linear_step(const PlanePose& target, PressEffort& effort) {
   const ContactEffort spent = contact_->solve(*solver_, target);
   effort.active_set_iterations += spent.rounds;
   effort.cg_iterations += spent.cg_iterations;
@@ -182,7 +178,7 @@ double TipPress<dim>::residual(const Vector& displacement, const PlanePose& targ
 }
 
 template <int dim>
-void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressState& effort) {
+void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressEffort& effort) {
   const double wanted = sampled ? balanced : nearly_balanced;
   // An iterative solver leaves out-of-balance forces of its own.
   const double enough = solver_kind_ == LinearSolver::multigrid
@@ -290,5 +286,13 @@ meshes::Vector3 TipPress<dim>::bond_reaction() const {
 
 template class TipPress<2>;
 template class TipPress<3>;
+
+std::unique_ptr<ContinuumPress> ContinuumPress::on(const ReferenceJob& job,
+                                                   const std::filesystem::path& mesh_file,
+                                                   std::function<bool()> stop_requested) {
+  if (job.axisymmetric())
+    return std::make_unique<TipPress<2>>(job, mesh_file, std::move(stop_requested));
+  return std::make_unique<TipPress<3>>(job, mesh_file, std::move(stop_requested));
+}
 
 }  // namespace fingertip::fem_reference::inline press

@@ -1,18 +1,18 @@
-/// One press on one mesh: body, material, solver and contact, and how they make a step. deal.II's
+/// The press on a mesh: body, material, solver and contact, and how they make a step. deal.II's
 /// side of ContinuumPress.
 #pragma once
 
 #include <deal.II/numerics/data_component_interpretation.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "fem_reference/contact/plane_contact.h"
 #include "fem_reference/elements/memory.h"
 #include "fem_reference/output/press_fields.h"
-#include "fem_reference/press/press_course.h"
-#include "fem_reference/press/press_state.h"
+#include "fem_reference/press/press.h"
 #include "fem_reference/solvers/field_solver.h"
 #include "fem_reference/tip/tip_body.h"
 
@@ -25,68 +25,34 @@ struct PressSnapshot {
   RememberedStress remembered;
 };
 
-/// What ContinuumPress asks of a model, whatever its dimension.
-class PressModel {
- public:
-  virtual ~PressModel() = default;
-  const ReferenceJob& job() const { return job_; }
-  const PressCourse& course() const { return course_; }
-  /// On the course [m].
-  double place() const { return place_; }
-  virtual MeshSummary mesh() const = 0;
-
-  /// One step to `place` [m]; adds what it cost to `effort`. Throws NotConverged.
-  virtual void step(double place, bool sampled, PressState& effort) = 0;
-  /// Back to the last step that converged.
-  virtual void abandon() = 0;
-
-  /// Reads the sample off the present state and remembers where its error is large.
-  virtual PressState evaluate() = 0;
-  virtual bool refine(double share, const std::vector<char>& wanted) = 0;
-
-  virtual std::shared_ptr<const PressSnapshot> snapshot() const = 0;
-  virtual void write_fields(const PressSnapshot& state,
-                            const std::filesystem::path& file) const = 0;
-  virtual std::vector<SectionEdge> section(const PressSnapshot& state) const = 0;
-  virtual meshes::Vector3 bond_reaction() const = 0;
-  virtual void save(const std::filesystem::path& folder) const = 0;
-  virtual void load(const std::filesystem::path& folder) = 0;
-
- protected:
-  explicit PressModel(const ReferenceJob& job) : job_(job), course_(job.protocol, job.in_time()) {}
-
-  ReferenceJob job_;
-  PressCourse course_;
-  double place_ = 0.0;
-};
-
 /// A solid, or a body of revolution on its meridian.
 template <int dim>
-class TipPress final : public PressModel {
+class TipPress final : public ContinuumPress {
  public:
-  TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file);
+  TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file,
+           std::function<bool()> stop_requested);
 
   MeshSummary mesh() const override;
-  void step(double place, bool sampled, PressState& effort) override;
-  void abandon() override;
-  PressState evaluate() override;
   bool refine(double share, const std::vector<char>& wanted) override;
   std::shared_ptr<const PressSnapshot> snapshot() const override;
   void write_fields(const PressSnapshot& state, const std::filesystem::path& file) const override;
-  std::vector<SectionEdge> section(const PressSnapshot& state) const override;
+  std::vector<SectionRow> section(const PressSnapshot& state) const override;
   meshes::Vector3 bond_reaction() const override;
   void save(const std::filesystem::path& folder) const override;
   void load(const std::filesystem::path& folder) override;
 
  private:
+  void step(double place, bool sampled, PressEffort& effort) override;
+  void abandon() override { contact_->abandon(); }
+  PressState evaluate() override;
   /// Chooses the solver of the numbered mesh, and puts the tip at rest under the plane.
   void prepare();
   std::unique_ptr<FieldSolver> make_solver(const std::vector<long>& contact_unknowns) const;
   PlanePose pose(double place) const;
   /// The material of a step of that length [s]; of a rubber that relaxes it depends on both.
   void prepare_step(double duration);
-  void linear_step(const PlanePose& target, PressState& effort);
-  void newton_step(const PlanePose& target, bool sampled, PressState& effort);
+  void linear_step(const PlanePose& target, PressEffort& effort);
+  void newton_step(const PlanePose& target, bool sampled, PressEffort& effort);
   Eigen::VectorXd at_contact(const Vector& field) const;
   /// Assembles the force at `displacement`; force of the system minus the plane's forces, where
   /// nothing is held, over the largest nodal force. Notes how far what touches is off the obstacle.

@@ -26,92 +26,65 @@ namespace {
 using Json = nlohmann::json;
 using namespace dealii::DataComponentInterpretation;
 
-/// The error indicators as fields with one value per cell, so that they travel with the mesh.
+/// What cells or their points know, as fields of an element, so that it travels with the mesh.
 template <int dim>
-class CellFields {
+class TravellingFields {
  public:
-  explicit CellFields(const Triangulation<dim>& triangulation) : element_(0), dofs_(triangulation) {
-    dofs_.distribute_dofs(element_);
-  }
-  Vector from(const dealii::Vector<float>& values) const {
-    Vector result(dofs_.locally_owned_dofs(), MPI_COMM_WORLD);
-    for_each([&](unsigned cell, auto unknown) { result[unknown] = double(values[cell]); });
-    result.compress(dealii::VectorOperation::insert);
-    return result;
-  }
-  void copy(const Vector& field, dealii::Vector<float>& values) const {
-    for_each([&](unsigned cell, auto unknown) { values[cell] = float(double(field[unknown])); });
-  }
-  Vector ghosted(const Vector& owned) const {
-    dealii::IndexSet relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(dofs_, relevant);
-    Vector result(dofs_.locally_owned_dofs(), relevant, MPI_COMM_WORLD);
-    result = owned;
-    return result;
+  TravellingFields(const dealii::FiniteElement<dim>& element,
+                   const Triangulation<dim>& triangulation)
+      : dofs_(triangulation) {
+    dofs_.distribute_dofs(element);
   }
   const dealii::DoFHandler<dim>& dofs() const { return dofs_; }
-
- private:
-  template <class Action>
-  void for_each(Action action) const {
-    std::vector<dealii::types::global_dof_index> unknown(1);
-    for (const auto& cell : dofs_.active_cell_iterators()) {
-      if (!cell->is_locally_owned()) continue;
-      cell->get_dof_indices(unknown);
-      action(cell->active_cell_index(), unknown[0]);
-    }
-  }
-
-  dealii::FE_DGQ<dim> element_;
-  dealii::DoFHandler<dim> dofs_;
-};
-
-/// Stresses at quadrature points as fields of elements whose nodes are those points, so that they
-/// travel with the mesh.
-template <int dim>
-class PointFields {
- public:
-  explicit PointFields(const Body<dim>& body)
-      : element_(dealii::FE_DGQArbitraryNodes<dim>(dealii::QGauss<1>(unsigned(body.degree()) + 1)),
-                 6),
-        dofs_(body.triangulation) {
-    dofs_.distribute_dofs(element_);
-  }
-  Vector from(const PointStresses& stresses) const {
-    Vector result(dofs_.locally_owned_dofs(), MPI_COMM_WORLD);
-    for_each(stresses, [&](double value, auto unknown) { result[unknown] = value; });
-    result.compress(dealii::VectorOperation::insert);
-    Vector known(dofs_.locally_owned_dofs(), relevant(), MPI_COMM_WORLD);
-    known = result;
-    return known;
-  }
-  Vector empty() const { return Vector(dofs_.locally_owned_dofs(), MPI_COMM_WORLD); }
-  void copy(const Vector& field, PointStresses& stresses) const {
-    for_each(stresses, [&](double& value, auto unknown) { value = field[unknown]; });
-  }
-  const dealii::DoFHandler<dim>& dofs() const { return dofs_; }
-
- private:
-  dealii::IndexSet relevant() const {
-    dealii::IndexSet result;
-    dealii::DoFTools::extract_locally_relevant_dofs(dofs_, result);
-    return result;
-  }
-  void for_each(auto& stresses, auto action) const {
-    std::vector<dealii::types::global_dof_index> unknowns(element_.n_dofs_per_cell());
+  Vector zero() const { return Vector(dofs_.locally_owned_dofs(), MPI_COMM_WORLD); }
+  /// Calls action(cell, unknowns) for this process's cells.
+  void for_each_cell(auto action) const {
+    std::vector<dealii::types::global_dof_index> unknowns(dofs_.get_fe().n_dofs_per_cell());
     for (const auto& cell : dofs_.active_cell_iterators()) {
       if (!cell->is_locally_owned()) continue;
       cell->get_dof_indices(unknowns);
-      auto values = stresses.of_cell(cell->active_cell_index());
-      for (unsigned q = 0; q < stresses.points; ++q)
-        for (unsigned c = 0; c < 6; ++c)
-          action(values(c, q), unknowns[element_.component_to_system_index(c, q)]);
+      action(cell->active_cell_index(), unknowns);
     }
   }
+  /// A field whose entries `fill` sets; it knows the neighbours' entries, too.
+  Vector filled(auto fill) const {
+    Vector own = zero();
+    fill(own);
+    own.compress(dealii::VectorOperation::insert);
+    dealii::IndexSet relevant;
+    dealii::DoFTools::extract_locally_relevant_dofs(dofs_, relevant);
+    Vector result(dofs_.locally_owned_dofs(), relevant, MPI_COMM_WORLD);
+    result = own;
+    return result;
+  }
 
-  dealii::FESystem<dim> element_;
+ private:
   dealii::DoFHandler<dim> dofs_;
 };
+
+/// For error indicators: one value per cell.
+template <int dim>
+TravellingFields<dim> cell_fields(const Body<dim>& body) {
+  return {dealii::FE_DGQ<dim>(0), body.triangulation};
+}
+
+/// For stresses: the element's nodes are the quadrature points.
+template <int dim>
+TravellingFields<dim> point_fields(const Body<dim>& body) {
+  const dealii::QGauss<1> points(unsigned(body.degree()) + 1);
+  return {dealii::FESystem<dim>(dealii::FE_DGQArbitraryNodes<dim>(points), 6), body.triangulation};
+}
+
+/// Calls action(entry, unknown) for every entry of a stress.
+template <int dim>
+void for_each_entry(const TravellingFields<dim>& fields, auto& stresses, auto action) {
+  fields.for_each_cell([&](unsigned cell, const auto& unknowns) {
+    auto values = stresses.of_cell(cell);
+    for (unsigned q = 0; q < stresses.points; ++q)
+      for (unsigned c = 0; c < 6; ++c)
+        action(values(c, q), unknowns[fields.dofs().get_fe().component_to_system_index(c, q)]);
+  });
+}
 
 template <int dim>
 using Transfer = dealii::parallel::distributed::SolutionTransfer<dim, Vector>;
@@ -160,7 +133,7 @@ void TipPress<dim>::write_fields(const PressSnapshot& state,
 }
 
 template <int dim>
-std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot& state) const {
+std::vector<SectionRow> TipPress<dim>::section(const PressSnapshot& state) const {
   const Vector u = body_->fine.ghosted(state.displacement);
   std::vector<std::array<double, 8>> own;
   const auto take = [&](const auto& line) {
@@ -211,7 +184,7 @@ std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot& state) cons
       }
     }
   }
-  std::vector<SectionEdge> edges;
+  std::vector<SectionRow> edges;
   for (const auto& part : dealii::Utilities::MPI::gather(MPI_COMM_WORLD, own))
     for (const auto& e : part)
       edges.push_back({{e[0], e[1], e[2], e[3]}, {e[4], e[5], e[6], e[7]}});
@@ -220,23 +193,26 @@ std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot& state) cons
 
 template <int dim>
 void TipPress<dim>::save(const std::filesystem::path& folder) const {
-  const CellFields<dim> cells(body_->triangulation);
+  const TravellingFields<dim> cells = cell_fields(*body_), points = point_fields(*body_);
   std::vector<Vector> displacements = {body_->fine.ghosted(displacement_)};
   for (const Vector& branch : linear_memory_.branches())
     displacements.push_back(body_->fine.ghosted(branch));
   std::vector<Vector> marks;
-  for (const Marks& sample : marks_) {
-    marks.push_back(cells.ghosted(cells.from(sample.indicators)));
-    marks.push_back(cells.ghosted(cells.from(sample.edge)));
-  }
+  for (const Marks& sample : marks_)
+    for (const auto* values : {&sample.indicators, &sample.edge})
+      marks.push_back(cells.filled([&](Vector& own) {
+        cells.for_each_cell(
+            [&](unsigned cell, const auto& unknown) { own[unknown[0]] = double((*values)[cell]); });
+      }));
   Transfer<dim> displacement_transfer(body_->fine.dofs), cell_transfer(cells.dofs());
   displacement_transfer.prepare_for_serialization(pointers_to(displacements));
   if (!marks.empty()) cell_transfer.prepare_for_serialization(pointers_to(marks));
-  const PointFields<dim> points(*body_);
   Transfer<dim> point_transfer(points.dofs());
   std::vector<Vector> stresses;
   for (const PointStresses* field : point_memory_.stresses())
-    stresses.push_back(points.from(*field));
+    stresses.push_back(points.filled([&](Vector& own) {
+      for_each_entry(points, *field, [&](double value, auto unknown) { own[unknown] = value; });
+    }));
   if (!stresses.empty()) point_transfer.prepare_for_serialization(pointers_to(stresses));
   body_->triangulation.save((folder / "mesh").string());
   if (!first_process()) return;
@@ -256,30 +232,34 @@ template <int dim>
 void TipPress<dim>::load_marks(std::size_t samples) {
   marks_.assign(samples, {});
   if (samples == 0) return;
-  const CellFields<dim> cells(body_->triangulation);
-  dealii::Vector<float> empty(body_->triangulation.n_active_cells());
-  std::vector<Vector> fields(2 * samples, cells.from(empty));
+  const TravellingFields<dim> cells = cell_fields(*body_);
+  const dealii::Vector<float> empty(body_->triangulation.n_active_cells());
+  std::vector<Vector> fields(2 * samples, cells.zero());
   std::vector<Vector*> list;
   for (Vector& field : fields) list.push_back(&field);
   Transfer<dim> transfer(cells.dofs());
   transfer.deserialize(list);
   for (std::size_t i = 0; i < samples; ++i) {
     marks_[i] = {empty, empty};
-    cells.copy(fields[2 * i], marks_[i].indicators);
-    cells.copy(fields[2 * i + 1], marks_[i].edge);
+    cells.for_each_cell([&](unsigned cell, const auto& unknown) {
+      marks_[i].indicators[cell] = float(double(fields[2 * i][unknown[0]]));
+      marks_[i].edge[cell] = float(double(fields[2 * i + 1][unknown[0]]));
+    });
   }
 }
 
 template <int dim>
 void TipPress<dim>::load_stresses() {
   if (point_memory_.empty()) return;
-  const PointFields<dim> points(*body_);
+  const TravellingFields<dim> points = point_fields(*body_);
   const std::vector<PointStresses*> stresses = point_memory_.stresses();
-  std::vector<Vector> fields(stresses.size(), points.empty());
+  std::vector<Vector> fields(stresses.size(), points.zero());
   std::vector<Vector*> list;
   for (Vector& field : fields) list.push_back(&field);
   Transfer<dim>(points.dofs()).deserialize(list);
-  for (std::size_t i = 0; i < fields.size(); ++i) points.copy(fields[i], *stresses[i]);
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    for_each_entry(points, *stresses[i],
+                   [&](double& value, auto unknown) { value = fields[i][unknown]; });
 }
 
 template <int dim>
@@ -315,7 +295,7 @@ void TipPress<dim>::load(const std::filesystem::path& folder) {
   template std::shared_ptr<const PressSnapshot> TipPress<dim>::snapshot() const;                \
   template void TipPress<dim>::write_fields(const PressSnapshot&, const std::filesystem::path&) \
       const;                                                                                    \
-  template std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot&) const;         \
+  template std::vector<SectionRow> TipPress<dim>::section(const PressSnapshot&) const;          \
   template void TipPress<dim>::save(const std::filesystem::path&) const;                        \
   template void TipPress<dim>::load(const std::filesystem::path&);
 FINGERTIP_INSTANTIATE(2)

@@ -1,20 +1,16 @@
-#include "fem_reference/runs/modes.h"
-
-#include <mpi.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <numbers>
-#include <ostream>
+#include <string>
+#include <vector>
 
 #include "fem_reference/job/processes.h"
 #include "fem_reference/job/run_tables.h"
 #include "fem_reference/motion/tip_modes.h"
 #include "fem_reference/press/force_error.h"
 #include "fem_reference/runs/run_files.h"
+#include "fem_reference/runs/runs.h"
 #include "fem_reference/tip/job_mesh.h"
 #include "meshes/base/errors.h"
 #include "meshes/tables/table_rows.h"
@@ -53,17 +49,9 @@ struct ModesOnMesh {
   double wall_time = 0.0;
 };
 
-std::string mode_name(std::size_t index) {
-  char text[32];
-  std::snprintf(text, sizeof text, "mode_%04zu.vtu", index + 1);
-  return text;
-}
-
-class ModesRun {
+class ModesRun : Run {
  public:
-  ModesRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
-           const std::function<bool()>& stop_requested)
-      : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
+  using Run::Run;
 
   RunOutcome carry_out() {
     const RunOutcome outcome = outcome_of([&] { compute(); });
@@ -158,25 +146,22 @@ class ModesRun {
 
   void write_fields(const TipModes& tip) {
     const std::vector<NaturalMode> modes = lowest();
-    if (first_process()) fs::create_directories(folder_ / "fields");
-    MPI_Barrier(MPI_COMM_WORLD);
+    const fs::path fields = make_folder("fields");
+    std::vector<std::pair<std::string, std::string>> series;
     for (std::size_t i = 0; i < modes.size(); ++i) {
       stop_if_asked(stop_requested_);
-      tip.write_fields(modes[i], folder_ / "fields" / mode_name(i));
-      progress_.report("fields", i + 1, modes.size(), mode_name(i));
+      series.emplace_back(std::to_string(i + 1), field_name(i, "mode"));
+      tip.write_fields(modes[i], fields / series.back().second);
+      progress_.report("fields", i + 1, modes.size(), series.back().second);
     }
-    if (!first_process()) return;
-    std::vector<std::pair<std::string, std::string>> series;
-    for (std::size_t i = 0; i < modes.size(); ++i)
-      series.emplace_back(std::to_string(i + 1), mode_name(i));
-    write_series(folder_ / "fields" / "modes.pvd", series);
+    if (first_process()) write_series(fields / "modes.pvd", series);
   }
 
   void write_tables(const RunOutcome& outcome) const {
     if (!first_process()) return;
     RunSummary summary = summary_head(outcome, job_);
     for (const ModesOnMesh& mesh : meshes_)
-      summary.plain_meshes.push_back(mesh_entry(mesh.mesh, mesh.wall_time));
+      summary.meshes.push_back(mesh_entry(mesh.mesh, mesh.wall_time));
     if (!meshes_.empty()) {
       summary.cells = meshes_.back().mesh.cells;
       summary.dofs = meshes_.back().mesh.unknowns;
@@ -194,10 +179,6 @@ class ModesRun {
     meshes::write_rows(rows, folder_ / "modes.csv");
   }
 
-  const fs::path folder_;
-  const ReferenceJob& job_;
-  RunProgress progress_;
-  const std::function<bool()>& stop_requested_;
   std::vector<ModesOnMesh> meshes_;  ///< coarse to fine
 };
 

@@ -1,5 +1,3 @@
-#include "fem_reference/runs/press_run.h"
-
 #include <mpi.h>
 
 #include <chrono>
@@ -16,10 +14,12 @@
 #include "fem_reference/press/press.h"
 #include "fem_reference/press/press_course.h"
 #include "fem_reference/runs/run_files.h"
+#include "fem_reference/runs/runs.h"
 #include "fem_reference/solvers/solver_choice.h"
 #include "fem_reference/tip/job_mesh.h"
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
+#include "meshes/tables/table_rows.h"
 
 namespace fingertip::fem_reference::inline runs {
 namespace {
@@ -59,16 +59,6 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-std::string_view name(MeshConvergence convergence) {
-  switch (convergence) {
-    case MeshConvergence::monotone: return "monotone";
-    case MeshConvergence::oscillatory: return "oscillatory";
-    case MeshConvergence::irregular: return "irregular";
-    case MeshConvergence::unknown: return "unknown";
-  }
-  return "";
-}
-
 /// The first process's text, on all.
 std::string from_first_process(std::string text) {
   unsigned long size = text.size();
@@ -94,17 +84,14 @@ std::string sample_text(const meshes::PressSample& sample) {
   return text;
 }
 
-class PressRun {
+class PressRun : Run {
  public:
   PressRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
            const std::function<bool()>& stop_requested)
-      : folder_(folder),
-        job_(job),
+      : Run(folder, job, progress, stop_requested),
         course_(job.protocol, job.in_time()),
         places_(course_.samples()),
-        progress_(progress),
         work_(job, places_.size(), fewest_meshes),
-        stop_requested_(stop_requested),
         history_(empty_history()) {}
 
   RunOutcome carry_out() {
@@ -125,7 +112,8 @@ class PressRun {
     work_.begin(
         expected_unknowns(job_, double(mesh_quality_.hexahedra), double(mesh_quality_.nodes)));
     report("assemble", 0, 1, "assembling the first mesh");
-    ContinuumPress press(job_, folder_ / "tip.msh", stop_requested_);
+    const auto made = ContinuumPress::on(job_, folder_ / "tip.msh", stop_requested_);
+    ContinuumPress& press = *made;
     if (!resume(press)) start_mesh(press);
     for (;;) {
       try {
@@ -172,12 +160,12 @@ class PressRun {
 
   /// How far doubled steps in time are off on the first mesh: more than the usual ones are.
   void estimate_step_errors() {
-    ContinuumPress press(job_, folder_ / "tip.msh", stop_requested_);
-    press.set_relaxing_step(2.0 * ContinuumPress::usual_relaxing_step);
+    const auto press = ContinuumPress::on(job_, folder_ / "tip.msh", stop_requested_);
+    press->set_relaxing_step(2.0 * ContinuumPress::usual_relaxing_step);
     std::vector<double> errors;
     for (const PressState& state : history_.meshes().front().states) {
-      const double usual = state.sample.normal_force,
-                   doubled = press.advance(places_[errors.size()]).sample.normal_force;
+      const double usual = state.normal_force,
+                   doubled = press->advance(places_[errors.size()]).normal_force;
       errors.push_back(usual > 0.0 ? std::abs(doubled / usual - 1.0) : 0.0);
       progress_.report("error", errors.size(), places_.size(),
                        "doubled steps: F = " + to_text(doubled) + " N");
@@ -209,13 +197,13 @@ class PressRun {
     const std::size_t total = places_.size();
     for (std::size_t i = history_.finest().states.size(); i < total; ++i) {
       PressState state = press.advance(places_[i]);
-      state.sample.stage = course_.stage(i);
+      state.stage = course_.stage(i);
       history_.add(std::move(state));
       keep_sample(press, i);
       work_.pressed();
       report("press", i + 1, total,
              "mesh " + std::to_string(history_.meshes().size()) + ": " +
-                 sample_text(history_.finest().states[i].sample));
+                 sample_text(history_.finest().states[i]));
     }
   }
 
@@ -244,16 +232,15 @@ class PressRun {
     if (unwritten_.empty()) return;
     const bool may_be_last = !job_.estimate_error || history_.meshes().size() >= fewest_meshes;
     if (job_.write_fields && may_be_last) {
-      if (first_process()) fs::create_directories(folder_ / "fields");
-      MPI_Barrier(MPI_COMM_WORLD);
+      const fs::path fields = make_folder("fields");
       for (const auto& [index, state] : unwritten_) {
-        press.write_fields(*state, folder_ / "fields" / field_name(index));
+        press.write_fields(*state, fields / field_name(index));
         progress_.report("fields", index + 1, places_.size(), field_name(index));
       }
       if (first_process()) write_field_series(shown_until(unwritten_.back().first), folder_);
     }
-    const std::vector<SectionEdge> section = press.section(*unwritten_.back().second);
-    if (first_process()) write_section(section, folder_);
+    const std::vector<SectionRow> section = press.section(*unwritten_.back().second);
+    if (first_process()) meshes::write_rows(section, folder_ / "section.csv");
     unwritten_.clear();
   }
 
@@ -271,18 +258,15 @@ class PressRun {
     MPI_Bcast(&due, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (!due) return;
     write_pictures(press);
-    const fs::path next = folder_ / "checkpoint.next", place = folder_ / "checkpoint";
-    if (first_process()) {
-      fs::remove_all(next);
-      fs::create_directories(next);
-    }
-    MPI_Barrier(MPI_COMM_WORLD);
+    const fs::path place = folder_ / "checkpoint";
+    if (first_process()) fs::remove_all(folder_ / "checkpoint.next");
+    const fs::path next = make_folder("checkpoint.next");
     press.save(next);
     MPI_Barrier(MPI_COMM_WORLD);
     if (first_process()) {
       meshes::write_atomically(next / "run.json", [&](std::ostream& out) {
         out << ordered_json{{"job", text_of(folder_ / "job.json")},
-                            {"history", history_.to_json()},
+                            {"meshes", history_.to_json()},
                             {"step_errors", history_.step_errors()}};
       });
       fs::remove_all(place);
@@ -299,7 +283,9 @@ class PressRun {
       for (const char* candidate : {"checkpoint", "checkpoint.next"}) {
         const auto json =
             ordered_json::parse(text_of(folder_ / candidate / "run.json"), nullptr, false);
-        if (!json.is_object() || json.value("job", "") != text_of(folder_ / "job.json")) continue;
+        if (!json.is_object() || !json.contains("meshes") ||
+            json.value("job", "") != text_of(folder_ / "job.json"))
+          continue;
         place = candidate;
         text = json.dump();
         break;
@@ -308,7 +294,7 @@ class PressRun {
     if (place.empty()) return false;
     const auto json = ordered_json::parse(from_first_process(text));
     press.load(folder_ / place);
-    history_ = MeshHistory::from_json(json.at("history"), empty_history());
+    history_ = MeshHistory::from_json(json.at("meshes"), empty_history());
     history_.set_step_errors(json.value("step_errors", std::vector<double>()));
     work_.resume(double(press.mesh().unknowns), history_.meshes().size(),
                  history_.finest().states.size());
@@ -334,44 +320,18 @@ class PressRun {
     if (job_.strain == Strain::finite) summary.law = meshes::describe(job_.rubber.energy);
     summary.worst_relative_error = history_.worst_relative_error();
     if (!history_.meshes().empty()) add_finest(history_.meshes().back().mesh, summary);
-    summary.mesh = first_mesh(mesh_quality_);
+    summary.mesh = mesh_quality_;
     for (const MeshRecord& record : history_.meshes())
       summary.meshes.push_back(
           {record.mesh.cells, record.mesh.unknowns, record.states.size(), record.wall_time});
     if (!best.empty()) summary.contact_node_spacing = best.back().node_spacing;
-    for (std::size_t i = 0; i < best.size(); ++i)
-      summary.samples.push_back(sample_entry(best[i], history_.error(i)));
+    summary.samples = best;
     return summary;
   }
 
-  static SampleEntry sample_entry(const PressState& state, const ForceError& error) {
-    return {.indentation = state.sample.indentation,
-            .lateral_displacement = state.sample.lateral_displacement,
-            .normal_force = state.sample.normal_force,
-            .contact_radius = state.sample.contact_radius,
-            .max_pressure = state.sample.max_pressure,
-            .force_error = error.value,
-            .convergence = std::string(name(error.convergence)),
-            .order = error.order,
-            .min_jacobian = state.min_jacobian,
-            .energy = state.energy,
-            .steps = state.steps,
-            .newton_iterations = state.newton_iterations,
-            .active_set_iterations = state.active_set_iterations,
-            .cg_iterations = state.cg_iterations,
-            .active_nodes = state.active_nodes,
-            .sliding_nodes = state.sliding_nodes,
-            .node_spacing = state.node_spacing,
-            .wall_time = state.wall_time};
-  }
-
-  const fs::path folder_;
-  const ReferenceJob& job_;
   const PressCourse course_;
   const std::vector<double> places_;  ///< of the samples on the course [m]
-  RunProgress progress_;
   PressWork work_;
-  const std::function<bool()>& stop_requested_;
   Clock::time_point last_checkpoint_ = Clock::now(), last_tables_;
   std::vector<std::pair<std::size_t, std::shared_ptr<const PressSnapshot>>> unwritten_;
   meshes::MeshQuality mesh_quality_;

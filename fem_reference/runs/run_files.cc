@@ -13,13 +13,12 @@ using meshes::to_text;
 
 void write_samples(const std::vector<PressState>& states, const std::filesystem::path& folder) {
   meshes::PressResponse response;
-  for (const PressState& state : states) response.append(state.sample);
+  for (const PressState& state : states) response.append(state);
   response.write_csv(folder / "response.csv");
   std::vector<PressureRow> rows;
   for (const PressState& state : states)
     for (const ContactPoint& point : state.contact)
-      rows.push_back({state.sample.indentation, point.radius, point.pressure,
-                      state.sample.lateral_displacement});
+      rows.push_back({state.indentation, point.radius, point.pressure, state.lateral_displacement});
   meshes::write_rows(rows, folder / "pressure.csv");
 }
 
@@ -29,24 +28,18 @@ void write_convergence(const MeshHistory& history, const std::filesystem::path& 
   for (const MeshRecord& record : history.meshes()) {
     ++number;
     for (const PressState& state : record.states)
-      rows.push_back({number, record.mesh.cells, record.mesh.unknowns, state.sample.indentation,
-                      state.sample.normal_force, state.sample.contact_radius,
-                      state.sample.max_pressure, state.node_spacing, state.energy, state.indicator,
-                      state.sample.lateral_displacement});
+      rows.push_back({number, record.mesh.cells, record.mesh.unknowns, state.indentation,
+                      state.normal_force, state.contact_radius, state.max_pressure,
+                      state.node_spacing, state.energy, state.indicator,
+                      state.lateral_displacement});
   }
   meshes::write_rows(rows, folder / "convergence.csv");
 }
 
-void write_section(const std::vector<SectionEdge>& edges, const std::filesystem::path& folder) {
-  std::vector<SectionRow> rows;
-  for (const SectionEdge& edge : edges) rows.push_back({edge.undeformed, edge.deformed});
-  meshes::write_rows(rows, folder / "section.csv");
-}
-
-std::string field_name(std::size_t index) {
-  char name[32];
-  std::snprintf(name, sizeof name, "press_%04zu.vtu", index + 1);
-  return name;
+std::string field_name(std::size_t index, const char* name) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%s_%04zu.vtu", name, index + 1);
+  return text;
 }
 
 void write_series(const std::filesystem::path& file,

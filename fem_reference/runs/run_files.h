@@ -16,9 +16,6 @@ void write_samples(const std::vector<PressState>& states, const std::filesystem:
 /// convergence.csv: one row per mesh and sample.
 void write_convergence(const MeshHistory& history, const std::filesystem::path& folder);
 
-/// section.csv: ends of the mesh's edges in y = 0, undeformed and deformed [m].
-void write_section(const std::vector<SectionEdge>& edges, const std::filesystem::path& folder);
-
 /// ParaView's list of files (.pvd), pairs of time and file name.
 void write_series(const std::filesystem::path& file,
                   const std::vector<std::pair<std::string, std::string>>& entries);
@@ -27,7 +24,7 @@ void write_series(const std::filesystem::path& file,
 /// the samples lie on the press's path [m], or when [s].
 void write_field_series(const std::vector<double>& steps, const std::filesystem::path& folder);
 
-/// press_NNNN.vtu of the sample `index` (from 0).
-std::string field_name(std::size_t index);
+/// NAME_NNNN.vtu of the sample or mode `index` (from 0).
+std::string field_name(std::size_t index, const char* name = "press");
 
 }  // namespace fingertip::fem_reference::inline runs

@@ -17,15 +17,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const char* name(RunOutcome::Status status) {
-  switch (status) {
-    case RunOutcome::Status::ok: return "ok";
-    case RunOutcome::Status::interrupted: return "interrupted";
-    case RunOutcome::Status::not_converged: return "not converged";
-  }
-  return "";
-}
-
 double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -48,6 +39,12 @@ void RunProgress::report(const char* stage, std::size_t done, std::size_t total,
 
 double RunProgress::wall_time() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+std::filesystem::path Run::make_folder(const std::filesystem::path& name) const {
+  if (first_process()) std::filesystem::create_directories(folder_ / name);
+  MPI_Barrier(MPI_COMM_WORLD);
+  return folder_ / name;
 }
 
 RunOutcome outcome_of(const std::function<void()>& work) {
@@ -80,13 +77,8 @@ RunSummary summary_head(const RunOutcome& outcome, const ReferenceJob& job) {
   return summary;
 }
 
-FirstMeshEntry first_mesh(const meshes::MeshQuality& quality) {
-  return {quality.hexahedra, quality.nodes, quality.min_jacobian, quality.min_scaled_jacobian,
-          quality.volume};
-}
-
 MeshEntry mesh_entry(const MeshSummary& mesh, double wall_time) {
-  return {mesh.cells, mesh.unknowns, wall_time};
+  return {mesh.cells, mesh.unknowns, {}, wall_time};
 }
 
 void add_finest(const MeshSummary& mesh, RunSummary& summary) {

@@ -9,10 +9,9 @@
 #include <string>
 
 #include "fem_reference/job/job.h"
+#include "fem_reference/job/press_state.h"
 #include "fem_reference/job/run_summary.h"
-#include "fem_reference/press/press_state.h"
 #include "fem_reference/solvers/solver_choice.h"
-#include "meshes/volume_mesh/volume_mesh.h"
 
 namespace fingertip::fem_reference::inline runs {
 
@@ -24,6 +23,13 @@ struct RunOutcome {
   /// Of a press that found equilibrium no further [m]; else NaN.
   double reached = std::numeric_limits<double>::quiet_NaN();
 };
+
+using meshes::name;
+constexpr auto names_of(RunOutcome::Status) {
+  using enum RunOutcome::Status;
+  return meshes::names<RunOutcome::Status>(
+      {{ok, "ok"}, {interrupted, "interrupted"}, {not_converged, "not converged"}});
+}
 
 /// Does the work of a run, and tells how it ended: Interrupted and NotConverged are outcomes, which
 /// all processes see together; anything else is passed on.
@@ -43,11 +49,27 @@ class RunProgress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// What every run has.
+class Run {
+ public:
+  Run(const std::filesystem::path& folder, const ReferenceJob& job, std::ostream& progress,
+      const std::function<bool()>& stop_requested)
+      : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
+
+ protected:
+  /// Makes a folder in the run's, before any process goes on.
+  std::filesystem::path make_folder(const std::filesystem::path& name) const;
+
+  const std::filesystem::path folder_;
+  const ReferenceJob& job_;
+  RunProgress progress_;
+  const std::function<bool()>& stop_requested_;
+};
+
 /// What every run's summary.json starts with: program, status, message, the discretisation that the
 /// job asked for, and the number of processes.
 RunSummary summary_head(const RunOutcome& outcome, const ReferenceJob& job);
 
-FirstMeshEntry first_mesh(const meshes::MeshQuality& quality);
 MeshEntry mesh_entry(const MeshSummary& mesh, double wall_time);
 /// What the summary of a press tells of its finest mesh.
 void add_finest(const MeshSummary& mesh, RunSummary& summary);

@@ -1,11 +1,8 @@
-#include "fem_reference/runs/transient.h"
-
 #include <mpi.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <ostream>
+#include <memory>
 #include <string>
 
 #include "fem_reference/job/processes.h"
@@ -15,6 +12,7 @@
 #include "fem_reference/press/press.h"
 #include "fem_reference/press/press_course.h"
 #include "fem_reference/runs/run_files.h"
+#include "fem_reference/runs/runs.h"
 #include "fem_reference/tip/job_mesh.h"
 #include "meshes/base/errors.h"
 #include "meshes/press/no_equilibrium.h"
@@ -33,16 +31,13 @@ constexpr double refined_in_motion = 0.7;
 constexpr double allowed_tolerances = 2.0;
 constexpr std::size_t max_rows = 2000;
 
-class TransientRun {
+class TransientRun : Run {
  public:
   TransientRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
                const std::function<bool()>& stop_requested)
-      : folder_(folder),
-        job_(job),
+      : Run(folder, job, progress, stop_requested),
         course_(job.protocol, true),
-        places_(course_.samples()),
-        progress_(progress),
-        stop_requested_(stop_requested) {}
+        places_(course_.samples()) {}
 
   RunOutcome carry_out() {
     const RunOutcome outcome = outcome_of([&] {
@@ -60,10 +55,6 @@ class TransientRun {
   }
 
  private:
-  fs::path mesh_folder(std::size_t number) const {
-    return folder_ / "meshes" / std::to_string(number);
-  }
-
   /// Static presses on ever finer meshes, each of which is kept, until the tolerance is met.
   void adapt() {
     ReferenceJob still = job_;
@@ -71,17 +62,17 @@ class TransientRun {
     still.protocol.contact = meshes::ContactMode::frictionless;
     still.rubber.relaxation = {};  // meshes are as good for other moduli
     still.protocol.program = {};   // and for the way back
-    ContinuumPress press(still, folder_ / "tip.msh", stop_requested_);
+    const auto press = ContinuumPress::on(still, folder_ / "tip.msh", stop_requested_);
     for (;;) {
-      static_presses_.start_mesh(press.mesh());
+      static_presses_.start_mesh(press->mesh());
       progress_.report("refine", static_presses_.meshes().size(), fewest_transient_meshes,
                        "static press on mesh " + std::to_string(static_presses_.meshes().size()) +
-                           ": " + std::to_string(press.mesh().unknowns) + " unknowns");
-      for (const double sample : job_.protocol.samples) static_presses_.add(press.advance(sample));
-      keep_mesh(press);
+                           ": " + std::to_string(press->mesh().unknowns) + " unknowns");
+      for (const double sample : job_.protocol.samples) static_presses_.add(press->advance(sample));
+      keep_mesh(*press);
       const bool estimable = static_presses_.meshes().size() >= fewest_transient_meshes;
       if (estimable && static_presses_.worst_relative_error() <= job_.tolerance) break;
-      if (!press.refine(refined_in_motion)) {
+      if (!press->refine(refined_in_motion)) {
         shortfall_ =
             "the static force may be off by more than the tolerance of " + to_text(job_.tolerance) +
             " on the finest mesh that reference.max_unknowns = " + to_text(job_.max_unknowns) +
@@ -92,11 +83,12 @@ class TransientRun {
     choose_mesh();
   }
 
+  static fs::path mesh_folder(std::size_t number) {
+    return fs::path("meshes") / std::to_string(number);
+  }
+
   void keep_mesh(const ContinuumPress& press) const {
-    const fs::path place = mesh_folder(static_presses_.meshes().size());
-    if (first_process()) fs::create_directories(place);
-    MPI_Barrier(MPI_COMM_WORLD);
-    press.save(place);
+    press.save(make_folder(mesh_folder(static_presses_.meshes().size())));
     MPI_Barrier(MPI_COMM_WORLD);
   }
 
@@ -111,7 +103,7 @@ class TransientRun {
   }
 
   double static_force(std::size_t mesh, std::size_t sample) const {
-    return static_presses_.meshes()[mesh - 1].states.at(sample).sample.normal_force;
+    return static_presses_.meshes()[mesh - 1].states.at(sample).normal_force;
   }
   /// Of the chosen mesh's static force, over the finest mesh's.
   double difference_to_finest(std::size_t sample) const {
@@ -126,16 +118,16 @@ class TransientRun {
   }
 
   std::unique_ptr<TransientPress> make_press() const {
-    return std::make_unique<TransientPress>(job_, folder_ / "tip.msh",
-                                            chosen_ > 0 ? mesh_folder(chosen_) : fs::path(),
-                                            stop_requested_);
+    return TransientPress::on(job_, folder_ / "tip.msh",
+                              chosen_ > 0 ? folder_ / mesh_folder(chosen_) : fs::path(),
+                              stop_requested_);
   }
 
   /// That of the static sample, in a program of the one next to its indentation.
   double mesh_error_of(std::size_t index) const {
     if (job_.protocol.program.empty()) return mesh_error(index);
     const std::vector<double>& depths = job_.protocol.samples;
-    const double wanted = states_[index].sample.indentation;
+    const double wanted = states_[index].indentation;
     std::size_t next = 0;
     for (std::size_t i = 1; i < depths.size(); ++i)
       if (std::abs(depths[i] - wanted) < std::abs(depths[next] - wanted)) next = i;
@@ -153,7 +145,7 @@ class TransientRun {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       try {
         states_.push_back(press->advance(places_[i]));
-        states_.back().sample.stage = course_.stage(i);
+        states_.back().stage = course_.stage(i);
       } catch (const meshes::NotConverged& error) {
         steps_ = press->steps();
         if (steps_.empty()) throw;
@@ -173,28 +165,26 @@ class TransientRun {
 
   void write_sample(const TransientPress& press, std::size_t index) {
     if (job_.write_fields) {
-      if (first_process()) fs::create_directories(folder_ / "fields");
-      MPI_Barrier(MPI_COMM_WORLD);
-      press.write_fields(folder_ / "fields" / field_name(index));
+      press.write_fields(make_folder("fields") / field_name(index));
       if (first_process()) {
         std::vector<double> times;
-        for (const PressState& state : states_) times.push_back(state.sample.time);
+        for (const PressState& state : states_) times.push_back(state.time);
         write_field_series(times, folder_);
       }
     }
     write_tables({RunOutcome::Status::interrupted, ""});
     progress_.report("press", index + 1, places_.size(),
-                     "F = " + to_text(states_.back().sample.normal_force) + " N at " +
-                         to_text(states_.back().sample.indentation) + " m, " +
-                         to_text(states_.back().sample.time) + " s");
+                     "F = " + to_text(states_.back().normal_force) + " N at " +
+                         to_text(states_.back().indentation) + " m, " +
+                         to_text(states_.back().time) + " s");
   }
 
   void repeat_with_doubled_steps() {
     const auto press = make_press();
     press->set_step_factor(2.0);
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      const double force = press->advance(places_[i]).sample.normal_force;
-      meshes::PressSample& sample = states_[i].sample;
+      const double force = press->advance(places_[i]).normal_force;
+      PressState& sample = states_[i];
       sample.force_error =
           std::abs(sample.normal_force - force) + mesh_error_of(i) * std::abs(sample.normal_force);
       progress_.report("error", i + 1, places_.size(),
@@ -214,47 +204,23 @@ class TransientRun {
     add_finest(mesh_, summary);
     summary.time_steps = steps_.empty() ? 0 : steps_.size() - 1;
     summary.transient_wall_time = press_time_;
-    summary.mesh = first_mesh(quality_);
+    summary.mesh = quality_;
     for (const MeshRecord& record : static_presses_.meshes())
       summary.static_meshes.push_back(mesh_entry(record.mesh, record.wall_time));
     if (chosen_ > 0) summary.static_mesh_of_transient = chosen_;
-    for (const PressState& state : states_)
-      summary.transient_samples.push_back(sample_entry(state));
+    for (const PressState& state : states_) summary.transient_samples.push_back({state});
     write_summary(std::move(summary), progress_, folder_);
   }
 
-  static TransientSampleEntry sample_entry(const PressState& state) {
-    TransientSampleEntry entry;
-    entry.indentation = state.sample.indentation;
-    entry.time = state.sample.time;
-    entry.normal_force = state.sample.normal_force;
-    entry.contact_radius = state.sample.contact_radius;
-    entry.max_pressure = state.sample.max_pressure;
-    entry.force_error = state.sample.force_error;
-    entry.energy = state.energy;
-    entry.steps = state.steps;
-    entry.active_set_iterations = state.active_set_iterations;
-    entry.cg_iterations = state.cg_iterations;
-    entry.active_nodes = state.active_nodes;
-    entry.wall_time = state.wall_time;
-    return entry;
-  }
-
   void write_steps() const {
-    std::vector<TransientRow> rows;
+    std::vector<TransientStep> rows;
     const std::size_t stride = (steps_.size() + max_rows - 1) / max_rows;
-    for (std::size_t i = 0; i < steps_.size(); i += stride)
-      rows.push_back(
-          {steps_[i].time, steps_[i].indentation, steps_[i].normal_force, steps_[i].contact_force});
+    for (std::size_t i = 0; i < steps_.size(); i += stride) rows.push_back(steps_[i]);
     meshes::write_rows(rows, folder_ / "transient.csv");
   }
 
-  const fs::path folder_;
-  const ReferenceJob& job_;
   const PressCourse course_;
   const std::vector<double> places_;  ///< of the samples on the course [m]
-  RunProgress progress_;
-  const std::function<bool()>& stop_requested_;
   meshes::MeshQuality quality_;
   MeshHistory static_presses_;
   std::size_t chosen_ = 0;  ///< number of the transient's mesh, from 1; 0: the one in the file

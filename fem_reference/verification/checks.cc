@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "fem_reference/analytic/bonded_disc.h"
-#include "fem_reference/verification/check.h"
 #include "fem_reference/verification/exact_cases.h"
 #include "fem_reference/verification/verification.h"
 
@@ -102,12 +101,12 @@ std::vector<Check> check_patch(const ElementType& element) {
     const bool exact_quadrature =
         (body.shape != Shape::curved_block && body.shape != Shape::curved_ring) ||
         element.degree < 3;
-    ElasticProblem problem(body, element, rubber);
-    problem.solve(loading);
+    const auto problem = ElasticProblem::on(body, element, rubber);
+    problem->solve(loading);
     checks.push_back(
         vanishing(std::string("patch test, ") + mesh_name + ", " + name(element),
                   "largest nodal error of a linear displacement", "constant strain is in the space",
-                  problem.nodal_error(loading.displacement), exact_quadrature ? 1e-10 : 1e-4));
+                  problem->nodal_error(loading.displacement), exact_quadrature ? 1e-10 : 1e-4));
   }
   return checks;
 }
@@ -116,9 +115,9 @@ std::vector<Check> check_rigid_modes(const ElementType& element) {
   std::vector<Check> checks;
   for (auto& [mesh_name, body] : small_bodies()) {
     if (element.degree == 3) body.divisions = {2, 1, 1};
-    const ElasticProblem problem(body, element, rubber_with(3.0 / 7.0));
-    const Eigen::MatrixXd stiffness = problem.stiffness();
-    const Eigen::MatrixXd motions = rigid_motions(problem.nodes(), body.shape);
+    const auto problem = ElasticProblem::on(body, element, rubber_with(3.0 / 7.0));
+    const Eigen::MatrixXd stiffness = problem->stiffness();
+    const Eigen::MatrixXd motions = rigid_motions(problem->nodes(), body.shape);
     const Eigen::VectorXd spectrum =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly)
             .eigenvalues();
@@ -149,35 +148,35 @@ std::vector<Check> check_fields(const ElementType& element, int divisions) {
   };
   const double tolerance = element.degree == 1 ? 0.05 : 1e-3;
   {
-    ElasticProblem problem(sphere_body(divisions), element, rubber);
-    problem.solve(sphere_loading());
+    const auto problem = ElasticProblem::on(sphere_body(divisions), element, rubber);
+    problem->solve(sphere_loading());
     // The outward normals of an octant have the mean (1, 1, 1)/2.
     checks.push_back(compare("thick sphere" + with, "radial displacement of the inner wall [m]",
-                             "Lamé 1852", problem.mean_displacement(boundary::inner).sum() / 1.5,
+                             "Lamé 1852", problem->mean_displacement(boundary::inner).sum() / 1.5,
                              sphere(rubber).radial_displacement(sphere_body(1).size[0]),
                              tolerance));
-    add_stress("thick sphere", problem, sphere(rubber));
+    add_stress("thick sphere", *problem, sphere(rubber));
   }
   {
-    ElasticProblem problem(cylinder_body(divisions), element, rubber);
-    problem.solve(cylinder_loading());
-    const Vector3 mean = problem.mean_displacement(boundary::inner);
+    const auto problem = ElasticProblem::on(cylinder_body(divisions), element, rubber);
+    problem->solve(cylinder_loading());
+    const Vector3 mean = problem->mean_displacement(boundary::inner);
     checks.push_back(compare("thick cylinder" + with, "radial displacement of the inner wall [m]",
                              "Lamé 1852", (mean.x() + mean.y()) * std::numbers::pi / 4,
                              cylinder(rubber).radial_displacement(cylinder_body(1).size[0]),
                              tolerance));
-    add_stress("thick cylinder", problem, cylinder(rubber));
+    add_stress("thick cylinder", *problem, cylinder(rubber));
   }
   {
     const analytic::PlaneStrainCantilever exact = cantilever(rubber);
-    ElasticProblem problem(cantilever_body(divisions), element, rubber);
-    problem.solve(cantilever_loading(exact));
+    const auto problem = ElasticProblem::on(cantilever_body(divisions), element, rubber);
+    problem->solve(cantilever_loading(exact));
     // Cubic elements contain the solution.
     checks.push_back(compare("cantilever" + with, "deflection of the end [m]",
                              "Timoshenko & Goodier, section 21",
-                             problem.mean_displacement(boundary::high_x).z(),
+                             problem->mean_displacement(boundary::high_x).z(),
                              exact.tip_deflection(), element.degree == 3 ? 1e-10 : tolerance));
-    add_stress("cantilever", problem, exact);
+    add_stress("cantilever", *problem, exact);
   }
   return checks;
 }
@@ -189,9 +188,10 @@ std::vector<Check> check_disc(double thickness, double poissons_ratio, const Ele
   const double energies = meshed == Meshed::solid ? 8.0 : 2.0;
   const double forces = meshed == Meshed::solid ? 4.0 : 1.0;
   const meshes::Rubber rubber = rubber_with(poissons_ratio);
-  ElasticProblem problem(disc_body(thickness, 4, local_refinements, meshed), element, rubber);
-  problem.solve(disc_loading(approach));
-  const double stiffness = 2.0 * energies * problem.energy() / (approach * approach);
+  const auto problem =
+      ElasticProblem::on(disc_body(thickness, 4, local_refinements, meshed), element, rubber);
+  problem->solve(disc_loading(approach));
+  const double stiffness = 2.0 * energies * problem->energy() / (approach * approach);
   char title[96];
   std::snprintf(title, sizeof title, "bonded disc%s, H/R = %g, nu = %.4g, %s",
                 meshed == Meshed::meridian ? " (meridian)" : "", thickness / disc_radius,
@@ -200,7 +200,7 @@ std::vector<Check> check_disc(double thickness, double poissons_ratio, const Ele
                   analytic::BondedDisc(rubber, disc_radius, thickness).extrapolated_stiffness(20),
                   2e-3),
           compare(title, "stiffness from the force on the plate [N/m]", "work of the plates",
-                  -forces * problem.reaction(boundary::high_z).z() / approach, stiffness, 1e-9)};
+                  -forces * problem->reaction(boundary::high_z).z() / approach, stiffness, 1e-9)};
 }
 
 }  // namespace fingertip::fem_reference::inline verification

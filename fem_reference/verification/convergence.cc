@@ -30,10 +30,10 @@ ConvergenceStudy converge(std::string problem, const meshes::Rubber& rubber,
   study.expected_l2 = element.degree + 1.0;
   study.expected_h1 = element.degree;
   for (const int n : divisions) {
-    ElasticProblem elastic(body_of(n), element, rubber);
-    elastic.solve(loading);
-    const FieldError error = elastic.error(exact);
-    study.meshes.push_back({edge / n, double(elastic.unknowns()), error.l2, error.h1});
+    const auto elastic = ElasticProblem::on(body_of(n), element, rubber);
+    elastic->solve(loading);
+    const FieldError error = elastic->error(exact);
+    study.meshes.push_back({edge / n, double(elastic->unknowns()), error.l2, error.h1});
   }
   const auto& coarse = study.meshes[study.meshes.size() - 2];
   const auto& fine = study.meshes.back();

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "fem_reference/elements/kinematics.h"
 #include "fem_reference/solvers/field_solver.h"
@@ -99,45 +100,12 @@ Vector external_load(const Body<dim>& body, const Loading& loading,
   return load;
 }
 
-/// The solution at a quadrature point.
-struct PointState {
-  Vector3 place, displacement;
-  analytic::Matrix3 gradient;
-  double dilatation = 0.0;  ///< as the element takes it, projected or not
-  double volume = 0.0;
-};
-
-}  // namespace
-
-/// What ElasticProblem asks, whatever the dimension.
-class ElasticModel {
- public:
-  explicit ElasticModel(const meshes::Rubber& material) : rubber(material) {}
-  virtual ~ElasticModel() = default;
-  virtual std::size_t unknowns() const = 0;
-  virtual double volume() const = 0;
-  virtual void solve(const Loading& loading) = 0;
-  /// Points enough for errors of the elements' order.
-  virtual void for_each_point(const std::function<void(const PointState&)>& take) const = 0;
-  /// Place and displacement of every node, and whether it hangs.
-  virtual void for_each_node(
-      const std::function<void(const Vector3&, const Vector3&, bool)>& take) const = 0;
-  virtual Vector3 mean_displacement(int boundary) const = 0;
-  virtual Vector3 reaction(int boundary) const = 0;
-  virtual double energy() const = 0;
-  virtual Eigen::MatrixXd stiffness() const = 0;
-
-  const meshes::Rubber rubber;
-};
-
-namespace {
-
 template <int dim>
-class MeshedProblem final : public ElasticModel {
+class MeshedProblem final : public ElasticProblem {
  public:
   MeshedProblem(const BodyMesh& description, const ElementType& element,
                 const meshes::Rubber& material)
-      : ElasticModel(material),
+      : ElasticProblem(material),
         body_(MPI_COMM_SELF, element.degree),
         volumetric_(element.volumetric),
         kernel_(material, element.volumetric) {
@@ -170,52 +138,6 @@ class MeshedProblem final : public ElasticModel {
     }
     body_.fine.constraints.distribute(displacement_);
     load_ = external_load(body_, loading, body_.fine.hanging_nodes());
-  }
-
-  void for_each_point(const std::function<void(const PointState&)>& take) const override {
-    const Space<dim>& space = body_.fine;
-    dealii::FEValues<dim> values(body_.mapping, space.element,
-                                 dealii::QGauss<dim>(unsigned(body_.degree()) + 2),
-                                 dealii::update_values | dealii::update_gradients |
-                                     dealii::update_quadrature_points | dealii::update_JxW_values);
-    const dealii::FEValuesExtractors::Vector all(0);
-    const std::size_t points = values.n_quadrature_points;
-    std::vector<dealii::Tensor<1, dim>> u(points);
-    std::vector<dealii::Tensor<2, dim>> gradients(points);
-    std::vector<PointState> states(points);
-    Eigen::VectorXd dilatation(points), weights(points);
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-      values.reinit(cell);
-      values[all].get_function_values(displacement_, u);
-      values[all].get_function_gradients(displacement_, gradients);
-      for (std::size_t q = 0; q < points; ++q) {
-        const auto& place = values.quadrature_point(unsigned(q));
-        states[q] = {in_space<dim>(place), in_space<dim>(u[q]),
-                     gradient_in_space(gradients[q], u[q], place)};
-        dilatation[Eigen::Index(q)] = states[q].gradient.trace();
-        weights[Eigen::Index(q)] = weight<dim>(values, unsigned(q));
-      }
-      if (volumetric_ == Volumetric::mean_dilatation) {
-        const Eigen::MatrixXd basis =
-            ElementPolynomials<dim>(values, body_.degree() - 1).at(values.get_quadrature_points());
-        dilatation = basis * (basis.transpose() * weights.cwiseProduct(dilatation));
-      }
-      for (std::size_t q = 0; q < points; ++q) {
-        states[q].dilatation = dilatation[Eigen::Index(q)];
-        states[q].volume = weights[Eigen::Index(q)];
-        take(states[q]);
-      }
-    }
-  }
-
-  void for_each_node(
-      const std::function<void(const Vector3&, const Vector3&, bool)>& take) const override {
-    const auto constraints = body_.fine.hanging_nodes();
-    visit([&](const Unknowns& unknowns, const Vector3& place) {
-      dealii::Tensor<1, dim> found;
-      for (unsigned c = 0; c < dim; ++c) found[c] = displacement_[unknowns[c]];
-      take(place, in_space<dim>(found), constraints.is_constrained(unknowns[0]));
-    });
   }
 
   Vector3 mean_displacement(int boundary) const override {
@@ -282,6 +204,51 @@ class MeshedProblem final : public ElasticModel {
  private:
   using Unknowns = std::array<global_dof_index, dim>;
 
+  void for_each_point(const std::function<void(const PointState&)>& take) const override {
+    const Space<dim>& space = body_.fine;
+    dealii::FEValues<dim> values(body_.mapping, space.element,
+                                 dealii::QGauss<dim>(unsigned(body_.degree()) + 2),
+                                 dealii::update_values | dealii::update_gradients |
+                                     dealii::update_quadrature_points | dealii::update_JxW_values);
+    const dealii::FEValuesExtractors::Vector all(0);
+    const std::size_t points = values.n_quadrature_points;
+    std::vector<dealii::Tensor<1, dim>> u(points);
+    std::vector<dealii::Tensor<2, dim>> gradients(points);
+    std::vector<PointState> states(points);
+    Eigen::VectorXd dilatation(points), weights(points);
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+      values.reinit(cell);
+      values[all].get_function_values(displacement_, u);
+      values[all].get_function_gradients(displacement_, gradients);
+      for (std::size_t q = 0; q < points; ++q) {
+        const auto& place = values.quadrature_point(unsigned(q));
+        states[q] = {in_space<dim>(place), in_space<dim>(u[q]),
+                     gradient_in_space(gradients[q], u[q], place)};
+        dilatation[Eigen::Index(q)] = states[q].gradient.trace();
+        weights[Eigen::Index(q)] = weight<dim>(values, unsigned(q));
+      }
+      if (volumetric_ == Volumetric::mean_dilatation) {
+        const Eigen::MatrixXd basis =
+            ElementPolynomials<dim>(values, body_.degree() - 1).at(values.get_quadrature_points());
+        dilatation = basis * (basis.transpose() * weights.cwiseProduct(dilatation));
+      }
+      for (std::size_t q = 0; q < points; ++q) {
+        states[q].dilatation = dilatation[Eigen::Index(q)];
+        states[q].volume = weights[Eigen::Index(q)];
+        take(states[q]);
+      }
+    }
+  }
+
+  void for_each_node(const TakeNode& take) const override {
+    const auto constraints = body_.fine.hanging_nodes();
+    visit([&](const Unknowns& unknowns, const Vector3& place) {
+      dealii::Tensor<1, dim> found;
+      for (unsigned c = 0; c < dim; ++c) found[c] = displacement_[unknowns[c]];
+      take(place, in_space<dim>(found), constraints.is_constrained(unknowns[0]));
+    });
+  }
+
   /// Calls `take(unknowns, place)` once per node.
   template <class Take>
   void visit(Take take) const {
@@ -311,31 +278,33 @@ class MeshedProblem final : public ElasticModel {
 
 }  // namespace
 
-ElasticProblem::ElasticProblem(const BodyMesh& body, const ElementType& element,
-                               const meshes::Rubber& rubber) {
-  if (revolved(body.shape))
-    model_ = std::make_unique<MeshedProblem<2>>(body, element, rubber);
-  else
-    model_ = std::make_unique<MeshedProblem<3>>(body, element, rubber);
+std::vector<Prescribed> whole(const std::vector<int>& boundaries) {
+  std::vector<Prescribed> result;
+  for (const int b : boundaries)
+    for (int component = 0; component < 3; ++component) result.push_back({b, component});
+  return result;
 }
 
-ElasticProblem::~ElasticProblem() = default;
-
-std::size_t ElasticProblem::unknowns() const {
-  return model_->unknowns();
+Loading loading_of(const analytic::ElasticField& exact, std::vector<Prescribed> prescribed) {
+  Loading loading;
+  loading.prescribed = std::move(prescribed);
+  loading.displacement = [&exact](const Vector3& x) { return exact.displacement(x); };
+  loading.body_force = [&exact](const Vector3& x) { return exact.body_force(x); };
+  loading.traction = [&exact](int, const Vector3& x, const Vector3& n) {
+    return exact.traction(x, n);
+  };
+  return loading;
 }
 
-double ElasticProblem::volume() const {
-  return model_->volume();
-}
-
-void ElasticProblem::solve(const Loading& loading) {
-  model_->solve(loading);
+std::unique_ptr<ElasticProblem> ElasticProblem::on(const BodyMesh& body, const ElementType& element,
+                                                   const meshes::Rubber& rubber) {
+  if (revolved(body.shape)) return std::make_unique<MeshedProblem<2>>(body, element, rubber);
+  return std::make_unique<MeshedProblem<3>>(body, element, rubber);
 }
 
 FieldError ElasticProblem::error(const analytic::ElasticField& exact) const {
   FieldError error, size;
-  model_->for_each_point([&](const PointState& state) {
+  for_each_point([&](const PointState& state) {
     const Vector3 u = exact.displacement(state.place);
     const analytic::Matrix3 g = exact.gradient(state.place);
     error.l2 += state.volume * (u - state.displacement).squaredNorm();
@@ -347,13 +316,12 @@ FieldError ElasticProblem::error(const analytic::ElasticField& exact) const {
 }
 
 double ElasticProblem::stress_error(const analytic::ElasticField& exact) const {
-  const meshes::Rubber& rubber = model_->rubber;
   double error = 0.0, size = 0.0;
-  model_->for_each_point([&](const PointState& state) {
+  for_each_point([&](const PointState& state) {
     const analytic::Matrix3 wanted = exact.stress(state.place);
     const analytic::Matrix3 found =
-        rubber.lame_lambda() * state.dilatation * analytic::Matrix3::Identity() +
-        rubber.shear_modulus * (state.gradient + state.gradient.transpose());
+        rubber_.lame_lambda() * state.dilatation * analytic::Matrix3::Identity() +
+        rubber_.shear_modulus * (state.gradient + state.gradient.transpose());
     error += state.volume * (wanted - found).squaredNorm();
     size += state.volume * wanted.squaredNorm();
   });
@@ -362,7 +330,7 @@ double ElasticProblem::stress_error(const analytic::ElasticField& exact) const {
 
 double ElasticProblem::nodal_error(const Loading::Field& exact) const {
   double error = 0.0, size = 0.0;
-  model_->for_each_node([&](const Vector3& place, const Vector3& found, bool) {
+  for_each_node([&](const Vector3& place, const Vector3& found, bool) {
     const Vector3 wanted = exact(place);
     error = std::max(error, (found - wanted).norm());
     size = std::max(size, wanted.norm());
@@ -370,25 +338,9 @@ double ElasticProblem::nodal_error(const Loading::Field& exact) const {
   return error / size;
 }
 
-Vector3 ElasticProblem::mean_displacement(int boundary) const {
-  return model_->mean_displacement(boundary);
-}
-
-Vector3 ElasticProblem::reaction(int boundary) const {
-  return model_->reaction(boundary);
-}
-
-double ElasticProblem::energy() const {
-  return model_->energy();
-}
-
-Eigen::MatrixXd ElasticProblem::stiffness() const {
-  return model_->stiffness();
-}
-
 std::vector<Vector3> ElasticProblem::nodes() const {
   std::vector<Vector3> places;
-  model_->for_each_node([&](const Vector3& place, const Vector3&, bool hangs) {
+  for_each_node([&](const Vector3& place, const Vector3&, bool hangs) {
     if (!hangs) places.push_back(place);
   });
   return places;

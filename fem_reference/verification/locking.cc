@@ -4,7 +4,6 @@
 #include "fem_reference/analytic/bonded_disc.h"
 #include "fem_reference/press/press.h"
 #include "fem_reference/tip/job_mesh.h"
-#include "fem_reference/verification/check.h"
 #include "fem_reference/verification/exact_cases.h"
 #include "fem_reference/verification/verification.h"
 
@@ -30,7 +29,7 @@ double press_force(const ElementType& element, double poissons_ratio,
   job.press_to({1e-3});
   job.degree = element.degree;
   job.volumetric = element.volumetric;
-  return ContinuumPress(job, mesh).advance(1e-3).sample.normal_force;
+  return ContinuumPress::on(job, mesh)->advance(1e-3).normal_force;
 }
 
 }  // namespace
@@ -41,11 +40,11 @@ std::vector<LockingPoint> lock_cantilever(const std::vector<double>& poissons_ra
     const meshes::Rubber rubber = rubber_with(nu);
     const analytic::PlaneStrainCantilever exact = cantilever(rubber);
     for (const ElementType& element : elements) {
-      ElasticProblem problem(cantilever_body(2), element, rubber);
-      problem.solve(cantilever_loading(exact));
+      const auto problem = ElasticProblem::on(cantilever_body(2), element, rubber);
+      problem->solve(cantilever_loading(exact));
       // Stiffness against the end load of 1 N/m.
       points.push_back(point("cantilever", element, nu,
-                             1.0 / problem.mean_displacement(boundary::high_x).z(),
+                             1.0 / problem->mean_displacement(boundary::high_x).z(),
                              1.0 / exact.tip_deflection()));
     }
   }
@@ -60,10 +59,10 @@ std::vector<LockingPoint> lock_disc(const std::vector<double>& poissons_ratios) 
     const double exact =
         analytic::BondedDisc(rubber, disc_radius, thickness).extrapolated_stiffness(20);
     for (const ElementType& element : elements) {
-      ElasticProblem problem(disc_body(thickness, 4, 0), element, rubber);
-      problem.solve(disc_loading(approach));
+      const auto problem = ElasticProblem::on(disc_body(thickness, 4, 0), element, rubber);
+      problem->solve(disc_loading(approach));
       points.push_back(point("bonded disc", element, nu,
-                             16.0 * problem.energy() / (approach * approach), exact));
+                             16.0 * problem->energy() / (approach * approach), exact));
     }
   }
   return points;

@@ -5,7 +5,6 @@
 #include "fem_reference/analytic/hertz.h"
 #include "fem_reference/press/press.h"
 #include "fem_reference/tip/job_mesh.h"
-#include "fem_reference/verification/check.h"
 #include "fem_reference/verification/verification.h"
 #include "meshes/base/files.h"
 
@@ -33,17 +32,17 @@ HertzResult press_towards_hertz(double rod, const std::vector<double>& indentati
   options.cap_elements = 8, options.cap_grading = 20.0;
   options.ring_elements = 3, options.radial_elements = 8, options.radial_grading = 8.0;
   write_mesh_once(geometry, options, folder / verification_mesh);
-  ContinuumPress press(job, folder / verification_mesh);
+  const auto press = ContinuumPress::on(job, folder / verification_mesh);
   HertzResult result;
   result.rod = rod;
   const analytic::Hertz hertz(job.rubber, geometry.tip_radius);
   for (int mesh = 0; mesh <= refinements; ++mesh) {
-    if (mesh > 0) press.refine(0.7);
+    if (mesh > 0) press->refine(0.7);
     result.forces.clear(), result.radii.clear();
     for (const double indentation : indentations) {
-      const PressState state = press.advance(indentation);
-      result.forces.push_back(state.sample.normal_force);
-      result.radii.push_back(state.sample.contact_radius);
+      const PressState state = press->advance(indentation);
+      result.forces.push_back(state.normal_force);
+      result.radii.push_back(state.contact_radius);
     }
   }
   result.indentations = indentations;
@@ -82,25 +81,25 @@ std::vector<Check> check_press(const std::filesystem::path& folder) {
   ReferenceJob job = frictionless({}, {depth});
   std::vector<Check> checks;
   const auto force = [&](ContinuumPress& press, const std::string& mesh, double sectors) {
-    const double normal_force = press.advance(depth).sample.normal_force;
+    const double normal_force = press.advance(depth).normal_force;
     checks.push_back(vanishing("balance of forces, " + mesh,
                                "force of the rod over force of the plane - 1", "equilibrium",
                                sectors * press.bond_reaction().z() / normal_force - 1.0, 1e-8));
     return normal_force;
   };
   write_mesh_once(job.geometry, quarter, folder / verification_mesh);
-  ContinuumPress quarter_press(job, folder / verification_mesh);
-  const double of_quarter = force(quarter_press, "quarter", 4.0);
+  const auto quarter_press = ContinuumPress::on(job, folder / verification_mesh);
+  const double of_quarter = force(*quarter_press, "quarter", 4.0);
   // Twice by a half of the estimated error: hanging nodes come to stand beside the bond, too.
-  quarter_press.refine(0.5);
-  force(quarter_press, "quarter, refined once", 4.0);
-  quarter_press.refine(0.5);
-  force(quarter_press, "quarter, refined twice", 4.0);
+  quarter_press->refine(0.5);
+  force(*quarter_press, "quarter, refined once", 4.0);
+  quarter_press->refine(0.5);
+  force(*quarter_press, "quarter, refined twice", 4.0);
   // A tilt that changes nothing but makes the press take the half.
   job.protocol.tilt = 1e-12;
   write_mesh_once(job.geometry, half, folder / verification_mesh);
-  ContinuumPress half_press(job, folder / verification_mesh);
-  const double of_half = force(half_press, "half", 2.0);
+  const auto half_press = ContinuumPress::on(job, folder / verification_mesh);
+  const double of_half = force(*half_press, "half", 2.0);
   checks.push_back(compare("symmetry", "force of the half against four quarters [N]",
                            "mirror planes of the press", of_half, of_quarter, 1e-6));
   return checks;

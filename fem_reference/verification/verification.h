@@ -2,10 +2,12 @@
 /// come from elsewhere. As functions, which tests call in small, and as a run.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fem_reference/job/job.h"
@@ -19,6 +21,25 @@ namespace fingertip::fem_reference::inline verification {
 meshes::Rubber rubber_with(double poissons_ratio);
 /// "Q2 projected"
 std::string name(const ElementType& element);
+
+/// Name of the mesh of a press in its folder.
+inline constexpr const char* verification_mesh = "verification.msh";
+
+/// `value` against `expected`, which is not zero.
+inline Check compare(std::string name, std::string quantity, std::string source, double value,
+                     double expected, double tolerance) {
+  const double error = std::abs(value / expected - 1.0);
+  return {std::move(name), std::move(quantity), std::move(source), value, expected,
+          error,           tolerance,           error <= tolerance};
+}
+
+/// A ratio that should vanish.
+inline Check vanishing(std::string name, std::string quantity, std::string source, double value,
+                       double tolerance) {
+  const double error = std::abs(value);
+  return {std::move(name), std::move(quantity), std::move(source), value, 0.0,
+          error,           tolerance,           error <= tolerance};
+}
 
 // Orders of convergence. `divisions` are element counts along an edge, coarse to fine, at least
 // two.

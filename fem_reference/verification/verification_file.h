@@ -55,32 +55,22 @@ struct VerificationFile {
 };
 
 constexpr auto fields_of(const ConvergenceStudy::Mesh*) {
-  using Whole = ConvergenceStudy::Mesh;
-  return meshes::named("h unknowns error_l2 error_h1", &Whole::h, &Whole::unknowns,
-                       &Whole::error_l2, &Whole::error_h1);
+  return FINGERTIP_FIELDS(ConvergenceStudy::Mesh, h, unknowns, error_l2, error_h1);
 }
 constexpr auto fields_of(const ConvergenceStudy*) {
-  using Whole = ConvergenceStudy;
-  return meshes::named(
-      "problem degree volumetric poissons_ratio meshes order_l2 order_h1 expected_l2 expected_h1",
-      &Whole::problem, &Whole::degree, &Whole::volumetric, &Whole::poissons_ratio, &Whole::meshes,
-      &Whole::order_l2, &Whole::order_h1, &Whole::expected_l2, &Whole::expected_h1);
+  return FINGERTIP_FIELDS(ConvergenceStudy, problem, degree, volumetric, poissons_ratio, meshes,
+                          order_l2, order_h1, expected_l2, expected_h1);
 }
 constexpr auto fields_of(const Check*) {
-  using Whole = Check;
-  return meshes::named("name quantity source value expected relative_error tolerance passed",
-                       &Whole::name, &Whole::quantity, &Whole::source, &Whole::value,
-                       &Whole::expected, &Whole::relative_error, &Whole::tolerance, &Whole::passed);
+  return FINGERTIP_FIELDS(Check, name, quantity, source, value, expected, relative_error, tolerance,
+                          passed);
 }
 constexpr auto fields_of(const LockingPoint*) {
-  using Whole = LockingPoint;
-  return meshes::named("problem element poissons_ratio value reference relative_error",
-                       &Whole::problem, &Whole::element, &Whole::poissons_ratio, &Whole::value,
-                       &Whole::reference, &Whole::relative_error);
+  return FINGERTIP_FIELDS(LockingPoint, problem, element, poissons_ratio, value, reference,
+                          relative_error);
 }
 constexpr auto fields_of(const VerificationFile*) {
-  using Whole = VerificationFile;
-  return meshes::named("studies checks locking", &Whole::studies, &Whole::checks, &Whole::locking);
+  return FINGERTIP_FIELDS(VerificationFile, studies, checks, locking);
 }
 
 }  // namespace fingertip::fem_reference::inline verification

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "fem_reference/job/processes.h"
-#include "fem_reference/verification/check.h"
 #include "fem_reference/verification/verification.h"
 #include "meshes/base/errors.h"
 #include "meshes/tables/fields_json.h"
@@ -109,11 +108,9 @@ std::vector<Part> all_parts() {
   return parts;
 }
 
-class VerificationRun {
+class VerificationRun : Run {
  public:
-  VerificationRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
-                  const std::function<bool()>& stop_requested)
-      : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
+  using Run::Run;
 
   RunOutcome carry_out() {
     const std::vector<Part> parts = all_parts();
@@ -148,10 +145,6 @@ class VerificationRun {
     write_summary(std::move(summary), progress_, folder_);
   }
 
-  const fs::path folder_;
-  const ReferenceJob& job_;
-  RunProgress progress_;
-  const std::function<bool()>& stop_requested_;
   Tables tables_;
 };
 

@@ -22,6 +22,15 @@
 
 namespace fingertip::meshes::inline tables {
 
+/// Settings without units need fields_of alone.
+template <typename T>
+requires HasFileFields<std::remove_const_t<T>>
+void visit_fields(T& settings, auto&& visit) {
+  for_each_field<std::remove_const_t<T>>([&](const auto& field) {
+    visit(std::string(field.name).c_str(), std::invoke(field.member, settings), "");
+  });
+}
+
 /// Whether visit_fields knows the members of `T`.
 template <typename T>
 concept HasFields = requires(T& settings) {

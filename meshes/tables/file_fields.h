@@ -7,15 +7,17 @@
 ///                         field("held", &Row::held, Presence::newer)};
 ///     }
 ///
-/// Settings (geometry, rubber, a job) have visit_fields (fields.h) instead: all members, always,
-/// each with its unit. Results are read back long after they were written: a table says which of
-/// its members a file must have, and its names are the titles of columns.
+/// Settings with units (geometry, rubber) have visit_fields (fields.h) instead: all members,
+/// always, each with its unit. Results are read back long after they were written: a table says
+/// which of its members a file must have, and its names are the titles of columns.
 ///
 /// Tables of such rows: table_rows.h. JSON objects: fields_json.h. An enumeration stands there by
 /// the name(...) of its values(...).
 #pragma once
 
 #include <algorithm>
+#include <boost/preprocessor/seq/for_each_i.hpp>
+#include <boost/preprocessor/variadic/to_seq.hpp>
 #include <limits>
 #include <optional>
 #include <string>
@@ -53,16 +55,23 @@ constexpr auto field(std::string_view name, Member member, Presence presence = P
   return Field<Member>{name, member, presence};
 }
 
-/// Fields that are always there, their names in one text between blanks.
+/// Fields that are always there, their names in one text between blanks or commas.
 template <typename... Member>
 constexpr auto named(std::string_view names, Member... members) {
   const auto next = [&] {
-    const std::string_view word = names.substr(0, names.find(' '));
-    names.remove_prefix(word.size() < names.size() ? word.size() + 1 : names.size());
+    const std::string_view word = names.substr(0, names.find_first_of(", "));
+    const std::size_t other = names.find_first_not_of(", ", word.size());
+    names.remove_prefix(std::min(other, names.size()));
     return word;
   };
   return std::tuple{Field<Member>{next(), members}...};
 }
+
+/// named() of members by the names that they have: FINGERTIP_FIELDS(Mesh, cells, wall_time).
+#define FINGERTIP_FIELDS(Struct, ...)                            \
+  fingertip::meshes::named(#__VA_ARGS__ BOOST_PP_SEQ_FOR_EACH_I( \
+      FINGERTIP_MEMBER, Struct, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__)))
+#define FINGERTIP_MEMBER(r, Struct, i, member) , &Struct::member
 
 /// The same fields, all of them newer, or there if known.
 template <typename... Member>

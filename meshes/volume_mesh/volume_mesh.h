@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "meshes/tables/file_fields.h"
 #include "meshes/volume_mesh/mesh_options.h"
 
 namespace fingertip::meshes::inline volume_mesh {
@@ -12,10 +13,15 @@ namespace fingertip::meshes::inline volume_mesh {
 struct MeshQuality {
   std::size_t hexahedra = 0;  ///< quadrilaterals, of a meridian
   std::size_t nodes = 0;
-  double min_jacobian = 0.0;  ///< smallest Jacobian determinant at a corner [m³, meridian m²]
-  double min_scaled_jacobian = 0.0;  ///< smallest scaled Jacobian, 1 for a cube or square
-  double volume = 0.0;  ///< of the straight-sided elements, or the body they sweep [m³]
+  double min_jacobian = unknown;  ///< smallest Jacobian determinant at a corner [m³, meridian m²]
+  double min_scaled_jacobian = unknown;  ///< smallest scaled Jacobian, 1 for a cube or square
+  double volume = unknown;  ///< of the straight-sided elements, or the body they sweep [m³]
 };
+constexpr auto fields_of(const MeshQuality*) {
+  return std::tuple_cat(FINGERTIP_FIELDS(MeshQuality, hexahedra),
+                        newer(FINGERTIP_FIELDS(MeshQuality, nodes, min_jacobian)),
+                        FINGERTIP_FIELDS(MeshQuality, min_scaled_jacobian, volume));
+}
 
 /// Writes the mesh in MSH 4.1 format with the physical volume `tip` and the physical surfaces
 /// `outer`, `bond`, `end` (of another shape what is free, if anything) and, for quarter and half,

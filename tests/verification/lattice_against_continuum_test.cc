@@ -27,7 +27,7 @@ meshes::PressResponse press_continuum(const ReferenceJob& job) {
   Pressing pressing(job);
   meshes::PressResponse response;
   const meshes::PressPath path(job.protocol);
-  for (const double place : path.samples()) response.append(pressing.press.advance(place).sample);
+  for (const double place : path.samples()) response.append(pressing.press.advance(place));
   return response;
 }
 

@@ -212,11 +212,11 @@ ReferenceJob small_press_of(const Geometry& geometry, ContactMode contact = Cont
 TEST(AnyShape, TiltedDomeOfAnyKindIsTheDome) {
   ReferenceJob job = small_press_of({}, ContactMode::frictionless);
   job.protocol.tilt = 0.3;
-  const meshes::PressSample dome = pressed(job, 1.0).sample;
+  const fem_reference::PressState dome = pressed(job, 1.0);
   for (const Geometry& geometry :
        {Geometry::of_profile(fingers::dome(), -0.03), fingers::solid_dome(48, 32)}) {
     job.geometry = geometry;
-    const meshes::PressSample sample = pressed(job, 1.0).sample;
+    const fem_reference::PressState sample = pressed(job, 1.0);
     EXPECT_NEAR(sample.normal_force / dome.normal_force, 1.0, 0.02);
     EXPECT_NEAR(sample.contact_radius / dome.contact_radius, 1.0, 0.12);
     const double moment = 0.03 * dome.normal_force;
@@ -239,7 +239,7 @@ TEST(AnyShape, SolidHandsOnAllThatPushesIt) {
     job.protocol.obstacle = {meshes::ObstacleShape::sphere, 0.02, meshes::ObstacleAxis::y, 2e-3};
     Pressing pressing(job);
     pressing.press.set_longest_step(0.05);
-    const meshes::PressSample sample = pressing.press.advance(1e-3).sample;
+    const fem_reference::PressState sample = pressing.press.advance(1e-3);
     const Vector3 bond = pressing.press.bond_reaction();
     EXPECT_GT(sample.normal_force, 0.0);
     EXPECT_NEAR(bond.z() / sample.normal_force, 1.0, 1e-6);
@@ -259,11 +259,11 @@ TEST(AnyShape, TurnsWithItsObstacle) {
   const PressState right = pressed(job, 0.2);
   job.protocol.obstacle.offset = -3e-3;
   const PressState left = pressed(job, 0.2);
-  const double force = right.sample.normal_force;
-  EXPECT_NEAR(left.sample.normal_force / force, 1.0, 0.02);
-  EXPECT_GT(std::abs(right.sample.lateral_force_x), 0.05 * force);
-  EXPECT_NEAR(left.sample.lateral_force_x, -right.sample.lateral_force_x, 0.02 * force);
-  EXPECT_NEAR(right.sample.lateral_force_y, 0.0, 0.02 * force);
+  const double force = right.normal_force;
+  EXPECT_NEAR(left.normal_force / force, 1.0, 0.02);
+  EXPECT_GT(std::abs(right.lateral_force_x), 0.05 * force);
+  EXPECT_NEAR(left.lateral_force_x, -right.lateral_force_x, 0.02 * force);
+  EXPECT_NEAR(right.lateral_force_y, 0.0, 0.02 * force);
 }
 
 /// The lowest mode, torsion, of a whole solid, of a quarter of a profile and of the dome.

@@ -30,9 +30,9 @@ TEST(FinitePress, BecomesLinearForSmallDepths) {
       job.refinement = 0.25;
       job.protocol.contact = mode;
       job.press_to({depth});
-      const double linear = pressed(job, 0.05).sample.normal_force;
+      const double linear = pressed(job, 0.05).normal_force;
       job.strain = Strain::finite;
-      return pressed(job, 0.05).sample.normal_force / linear - 1;
+      return pressed(job, 0.05).normal_force / linear - 1;
     };
     const double deep = excess(1e-5), shallow = excess(5e-6);
     EXPECT_LT(std::abs(deep), 2e-3);
@@ -48,7 +48,7 @@ TEST(FinitePress, ReachesTinyDepths) {
   job.strain = Strain::linear;
   const PressState linear = pressed(job, 0.05);
   EXPECT_EQ(linear.active_nodes, 1);
-  EXPECT_NEAR(finite.sample.normal_force / linear.sample.normal_force, 1.0, 1e-3);
+  EXPECT_NEAR(finite.normal_force / linear.normal_force, 1.0, 1e-3);
   for (const PressState& state : {finite, linear}) {
     EXPECT_GT(state.node_spacing, 1e-5);
     EXPECT_LT(state.node_spacing, 1e-3);
@@ -65,12 +65,12 @@ TEST(FinitePress, LawAStiffensAsItShould) {
   finite.press.set_longest_step(0.04);
   for (const auto& [indentation, excess, tolerance] :
        {std::tuple{5e-4, 0.015, 0.005}, std::tuple{1e-3, 0.08, 0.01}}) {
-    const double small = linear.press.advance(indentation).sample.normal_force;
+    const double small = linear.press.advance(indentation).normal_force;
     const PressState state = finite.press.advance(indentation);
-    EXPECT_NEAR(state.sample.normal_force / small - 1, excess, tolerance);
+    EXPECT_NEAR(state.normal_force / small - 1, excess, tolerance);
     EXPECT_GT(state.min_jacobian, 0.3);
     EXPECT_LT(state.min_jacobian, 1.0);
-    EXPECT_NEAR(4 * finite.press.bond_reaction().z() / state.sample.normal_force, 1.0, 1e-8);
+    EXPECT_NEAR(4 * finite.press.bond_reaction().z() / state.normal_force, 1.0, 1e-8);
   }
 }
 
@@ -84,7 +84,7 @@ TEST(FinitePress, ForceIsTheEnergysDerivativeForEveryLaw) {
     Pressing pressing(job);
     pressing.press.set_longest_step(0.05);
     const double before = pressing.press.advance(indentation - h).energy;
-    const double force = pressing.press.advance(indentation).sample.normal_force;
+    const double force = pressing.press.advance(indentation).normal_force;
     const double after = pressing.press.advance(indentation + h).energy;
     EXPECT_NEAR((after - before) / (2 * h) / force, 1.0, 1e-5) << name(law);
   }
@@ -95,7 +95,7 @@ TEST(FinitePress, FrictionlessForceDoesNotDependOnTheSteps) {
   const ReferenceJob job = finite_press();
   const PressState coarse = pressed(job, 0.1), fine = pressed(job, 0.03);
   EXPECT_LT(coarse.steps, fine.steps);
-  EXPECT_NEAR(coarse.sample.normal_force / fine.sample.normal_force, 1.0, 1e-8);
+  EXPECT_NEAR(coarse.normal_force / fine.normal_force, 1.0, 1e-8);
   EXPECT_NEAR(coarse.energy / fine.energy, 1.0, 1e-8);
 }
 
@@ -111,11 +111,10 @@ TEST(FinitePress, TorqueIsTheEnergysDerivativeByTheTilt) {
   };
   const PressState centre = at(tilt);
   const double slope = (at(tilt + h).energy - at(tilt - h).energy) / (2 * h);
-  const double about_centre = centre.sample.torque_y +
-                              job.geometry.rod_length * std::sin(tilt) * centre.sample.normal_force;
-  EXPECT_NEAR(slope, about_centre,
-              0.01 * centre.sample.contact_radius * centre.sample.normal_force);
-  EXPECT_EQ(centre.sample.lateral_force_x, 0.0);
+  const double about_centre =
+      centre.torque_y + job.geometry.rod_length * std::sin(tilt) * centre.normal_force;
+  EXPECT_NEAR(slope, about_centre, 0.01 * centre.contact_radius * centre.normal_force);
+  EXPECT_EQ(centre.lateral_force_x, 0.0);
 }
 
 TEST(FinitePress, FrictionHoldsTheTip) {
@@ -124,12 +123,12 @@ TEST(FinitePress, FrictionHoldsTheTip) {
   job.protocol.lateral = 7e-5;
   job.protocol.contact = ContactMode::stick;
   const PressState stick = pressed(job, 0.05);
-  EXPECT_GT(stick.sample.lateral_force_x, 0.05 * stick.sample.normal_force);
+  EXPECT_GT(stick.lateral_force_x, 0.05 * stick.normal_force);
   job.protocol.contact = ContactMode::coulomb;
   job.protocol.friction = 0.1;
   const PressState coulomb = pressed(job, 0.05);
-  EXPECT_LT(coulomb.sample.lateral_force_x, stick.sample.lateral_force_x);
-  EXPECT_LE(coulomb.sample.lateral_force_x, 0.1 * coulomb.sample.normal_force * (1 + 1e-9));
+  EXPECT_LT(coulomb.lateral_force_x, stick.lateral_force_x);
+  EXPECT_LE(coulomb.lateral_force_x, 0.1 * coulomb.normal_force * (1 + 1e-9));
   EXPECT_GT(coulomb.sliding_nodes, 0);
 }
 
@@ -139,7 +138,7 @@ TEST(FinitePress, LongStepsAreHalvedWhereNewtonFails) {
   const PressState patient = pressed(job, 0.05);
   const PressState hasty = pressed(job, 0.5);
   EXPECT_LT(hasty.steps, patient.steps);
-  EXPECT_NEAR(hasty.sample.normal_force / patient.sample.normal_force, 1.0, 1e-7);
+  EXPECT_NEAR(hasty.normal_force / patient.normal_force, 1.0, 1e-7);
 }
 
 }  // namespace

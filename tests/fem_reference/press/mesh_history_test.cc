@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "fem_reference/job/run_tables.h"
 #include "fem_reference/runs/run_files.h"
+#include "meshes/tables/table_rows.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -26,10 +28,10 @@ MeshSummary mesh(std::size_t unknowns) {
 /// A state whose nodes at the contact edge are `spacing` apart.
 PressState state(double indentation, double force, double spacing) {
   PressState result;
-  result.sample.indentation = indentation;
-  result.sample.normal_force = force;
-  result.sample.contact_radius = std::sqrt(indentation * 0.01);
-  result.sample.max_pressure = 1e5 * force;
+  result.indentation = indentation;
+  result.normal_force = force;
+  result.contact_radius = std::sqrt(indentation * 0.01);
+  result.max_pressure = 1e5 * force;
   result.contact = {{0.0, 1e5 * force}, {1.0 / 3.0, 0.1}};
   result.node_spacing = spacing;
   result.min_jacobian = 0.9;
@@ -69,8 +71,8 @@ double decay(double coarser, double finer) {
 TEST(MeshHistory, BestIsTheFinestMeshThatHasTheSample) {
   const auto best = three_meshes().best();
   ASSERT_EQ(best.size(), 2u);
-  EXPECT_EQ(best[0].sample.normal_force, 1.01);
-  EXPECT_EQ(best[1].sample.normal_force, 3.06);
+  EXPECT_EQ(best[0].normal_force, 1.01);
+  EXPECT_EQ(best[1].normal_force, 3.06);
   EXPECT_TRUE(MeshHistory().best().empty());
 }
 
@@ -80,7 +82,7 @@ TEST(MeshHistory, ErrorsComeFromTheMeshesThatHaveTheSample) {
   const double two = 3.0 * 0.24 / decay(coarse, medium);
   EXPECT_NEAR(history.error(0).value, three, 1e-12);
   EXPECT_NEAR(history.error(1).value, two, 1e-12);
-  EXPECT_NEAR(history.best()[0].sample.force_error, three, 1e-12);
+  EXPECT_NEAR(history.best()[0].force_error, three, 1e-12);
   EXPECT_NEAR(history.worst_relative_error(), two / 3.06, 1e-12);
 }
 
@@ -90,12 +92,12 @@ TEST(MeshHistory, OneMeshTellsNoError) {
   history.add(state(1e-3, 1.0, coarse));
   EXPECT_TRUE(std::isnan(history.error(0).value));
   EXPECT_TRUE(std::isnan(history.worst_relative_error()));
-  EXPECT_TRUE(std::isnan(history.best()[0].sample.force_error));
+  EXPECT_TRUE(std::isnan(history.best()[0].force_error));
   // A second mesh that has not reached the second sample leaves that one unknown.
   history.add(state(2e-3, 3.0, coarse));
   history.start_mesh(mesh(3000));
   history.add(state(1e-3, 1.01, medium));
-  EXPECT_FALSE(std::isnan(history.best()[0].sample.force_error));
+  EXPECT_FALSE(std::isnan(history.best()[0].force_error));
   EXPECT_TRUE(std::isnan(history.worst_relative_error()));
 }
 
@@ -106,7 +108,7 @@ TEST(MeshHistory, MeshesThatAreNoFinerAtTheEdgeCountAsOne) {
   history.add(state(1e-3, 1.012, fine));
   const double expected = 1.25 * std::max(0.008 / decay(medium, fine), 0.088 / decay(coarse, fine));
   EXPECT_NEAR(history.error(0).value, expected, 1e-12);
-  EXPECT_EQ(history.best()[0].sample.normal_force, 1.012);
+  EXPECT_EQ(history.best()[0].normal_force, 1.012);
 }
 
 /// Three samples with the same relative contact: of the second, all meshes agree by chance.
@@ -187,12 +189,12 @@ TEST(MeshHistory, SurvivesJson) {
   EXPECT_EQ(mesh_read.contact_unknowns, 30u);
   EXPECT_EQ(mesh_read.solver, LinearSolver::condensed);
   const PressState &a = history.meshes()[0].states[1], &b = read.meshes()[0].states[1];
-  EXPECT_EQ(b.sample.indentation, a.sample.indentation);
-  EXPECT_EQ(b.sample.normal_force, a.sample.normal_force);
-  EXPECT_EQ(b.sample.contact_radius, a.sample.contact_radius);  // to the last bit
-  EXPECT_EQ(b.sample.max_pressure, a.sample.max_pressure);
-  EXPECT_TRUE(std::isnan(b.sample.lateral_force_x));
-  EXPECT_TRUE(std::isnan(b.sample.time));
+  EXPECT_EQ(b.indentation, a.indentation);
+  EXPECT_EQ(b.normal_force, a.normal_force);
+  EXPECT_EQ(b.contact_radius, a.contact_radius);  // to the last bit
+  EXPECT_EQ(b.max_pressure, a.max_pressure);
+  EXPECT_TRUE(std::isnan(b.lateral_force_x));
+  EXPECT_TRUE(std::isnan(b.time));
   EXPECT_EQ(b.contact.size(), 2u);
   EXPECT_EQ(b.contact[1].radius, 1.0 / 3.0);
   EXPECT_EQ(b.node_spacing, a.node_spacing);
@@ -241,7 +243,8 @@ TEST(RunFiles, ConvergenceHasARowPerMeshAndSample) {
 
 TEST(RunFiles, SectionAndFieldSeriesNameWhatIsThere) {
   const TemporaryFolder folder;
-  fem_reference::write_section({{{0, 1, 2, 3}, {0, 1, 2, 2.5}}}, folder.path());
+  meshes::write_rows(std::vector<fem_reference::SectionRow>{{{0, 1, 2, 3}, {0, 1, 2, 2.5}}},
+                     folder.path() / "section.csv");
   const auto section = lines_of(folder / "section.csv");
   ASSERT_EQ(section.size(), 2u);
   EXPECT_EQ(section[1], "0,1,2,3,0,1,2,2.5");

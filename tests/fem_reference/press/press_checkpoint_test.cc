@@ -17,13 +17,12 @@ void expect_same(const PressState& first, const PressState& second, double toler
   const auto near = [&](double a, double b, const char* what) {
     EXPECT_NEAR(a, b, tolerance * std::abs(a)) << what;
   };
-  near(first.sample.normal_force, second.sample.normal_force, "force");
-  near(first.sample.max_pressure, second.sample.max_pressure, "pressure");
-  near(first.sample.contact_radius, second.sample.contact_radius, "radius");
+  near(first.normal_force, second.normal_force, "force");
+  near(first.max_pressure, second.max_pressure, "pressure");
+  near(first.contact_radius, second.contact_radius, "radius");
   near(first.energy, second.energy, "energy");
-  EXPECT_NEAR(first.sample.lateral_force_x, second.sample.lateral_force_x,
-              tolerance * first.sample.normal_force);
-  EXPECT_NEAR(first.sample.torque_y, second.sample.torque_y, tolerance * first.sample.normal_force);
+  EXPECT_NEAR(first.lateral_force_x, second.lateral_force_x, tolerance * first.normal_force);
+  EXPECT_NEAR(first.torque_y, second.torque_y, tolerance * first.normal_force);
   EXPECT_EQ(first.active_nodes, second.active_nodes);
   EXPECT_EQ(first.sliding_nodes, second.sliding_nodes);
   EXPECT_EQ(first.steps, second.steps);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem_reference/press/contact_edge.h"
 #include "meshes/base/errors.h"
 #include "tests/fem_reference/press/pressing.h"
 
@@ -25,7 +26,7 @@ using meshes::ContactMode;
 namespace {
 
 double force_of(const ReferenceJob& job, double longest_step = 0.01) {
-  return pressed(job, longest_step).sample.normal_force;
+  return pressed(job, longest_step).normal_force;
 }
 
 /// The force [gf] that two independent programs give; tests/fem_reference/data has all of them.
@@ -39,8 +40,7 @@ TEST(ContinuumPress, FrictionlessForceIsThatOfTheTable) {
   Pressing pressing(job);
   for (const auto& [indentation, force] : table) {
     const PressState state = pressing.press.advance(indentation);
-    EXPECT_NEAR(state.sample.normal_force / 9.80665e-3 / force, 1.0,
-                indentation < 5e-4 ? 0.03 : 0.005)
+    EXPECT_NEAR(state.normal_force / 9.80665e-3 / force, 1.0, indentation < 5e-4 ? 0.03 : 0.005)
         << indentation;
     EXPECT_EQ(state.steps, 1);  // it does not depend on its path
   }
@@ -56,11 +56,11 @@ TEST(ContinuumPress, ForcesBalance) {
     for (const double indentation : {1e-4, 5e-4, 1e-3}) {
       const PressState state = pressing.press.advance(indentation);
       const meshes::Vector3 bond = pressing.press.bond_reaction();
-      EXPECT_NEAR(4 * bond.z() / state.sample.normal_force, 1.0, 1e-9);
-      EXPECT_GT(state.sample.normal_force, previous);
-      EXPECT_EQ(state.sample.lateral_force_x, 0.0);
-      EXPECT_EQ(state.sample.torque_y, 0.0);
-      previous = state.sample.normal_force;
+      EXPECT_NEAR(4 * bond.z() / state.normal_force, 1.0, 1e-9);
+      EXPECT_GT(state.normal_force, previous);
+      EXPECT_EQ(state.lateral_force_x, 0.0);
+      EXPECT_EQ(state.torque_y, 0.0);
+      previous = state.normal_force;
     }
   }
 }
@@ -73,7 +73,7 @@ TEST(ContinuumPress, ForceIsTheEnergysDerivative) {
     job.press_to({indentation + h});
     Pressing pressing(job);
     const double before = pressing.press.advance(indentation - h).energy;
-    const double force = pressing.press.advance(indentation).sample.normal_force;
+    const double force = pressing.press.advance(indentation).normal_force;
     const double after = pressing.press.advance(indentation + h).energy;
     EXPECT_NEAR((after - before) / (2 * h) / force, 1.0, 1e-5);
   }
@@ -89,8 +89,8 @@ TEST(ContinuumPress, StickStoresTheWorkOfItsForce) {
     const double step = std::min(2e-5, job.protocol.depth - indentation);
     indentation += step;
     const PressState state = pressing.press.advance(indentation);
-    work += step * (last + state.sample.normal_force) / 2;
-    last = state.sample.normal_force;
+    work += step * (last + state.normal_force) / 2;
+    last = state.normal_force;
     energy = state.energy;
   }
   EXPECT_NEAR(energy / work, 1.0, 2e-3);
@@ -102,12 +102,12 @@ TEST(ContinuumPress, PressuresArePositiveAndAddUp) {
   EXPECT_EQ(int(state.contact.size()), state.active_nodes);
   EXPECT_TRUE(std::ranges::is_sorted(state.contact, {}, &ContactPoint::radius));
   for (const ContactPoint& point : state.contact) EXPECT_GE(point.pressure, 0.0);
-  const double a = state.sample.contact_radius;
+  const double a = state.contact_radius;
   EXPECT_NEAR(a, 3.494e-3, state.node_spacing);
   // Hertz's profile has 1.5 times the mean pressure at the pole; the bond makes it steeper.
-  const double mean = state.sample.normal_force / (std::numbers::pi * a * a);
-  EXPECT_GT(state.sample.max_pressure, 1.4 * mean);
-  EXPECT_LT(state.sample.max_pressure, 1.7 * mean);
+  const double mean = state.normal_force / (std::numbers::pi * a * a);
+  EXPECT_GT(state.max_pressure, 1.4 * mean);
+  EXPECT_LT(state.max_pressure, 1.7 * mean);
 }
 
 TEST(ContinuumPress, StickIsStifferAndDoesNotDependOnItsSteps) {
@@ -175,9 +175,9 @@ TEST(ContinuumPress, MultigridAgreesWithTheFactorisation) {
     EXPECT_EQ(condensed.cg_iterations, 0);
     EXPECT_GT(multigrid.cg_iterations, 0);
     EXPECT_EQ(condensed.active_nodes, multigrid.active_nodes);
-    EXPECT_NEAR(multigrid.sample.normal_force / condensed.sample.normal_force, 1.0, 1e-7);
+    EXPECT_NEAR(multigrid.normal_force / condensed.normal_force, 1.0, 1e-7);
     EXPECT_NEAR(multigrid.energy / condensed.energy, 1.0, 1e-7);
-    EXPECT_NEAR(multigrid.sample.max_pressure / condensed.sample.max_pressure, 1.0, 1e-6);
+    EXPECT_NEAR(multigrid.max_pressure / condensed.max_pressure, 1.0, 1e-6);
   }
 }
 
@@ -202,9 +202,9 @@ TEST(ContinuumPress, RefinesWhereItMattersAndStartsAnew) {
   EXPECT_GT(double(after.unknowns), 1.5 * double(before.unknowns));
   const PressState fine = pressing.press.advance(1e-3);
   const double truth = 3.25628 * 9.80665e-3;
-  EXPECT_LT(std::abs(fine.sample.normal_force / truth - 1), 5e-3);
+  EXPECT_LT(std::abs(fine.normal_force / truth - 1), 5e-3);
   EXPECT_LT(fine.node_spacing, 0.7 * coarse.node_spacing);
-  EXPECT_NEAR(4 * pressing.press.bond_reaction().z() / fine.sample.normal_force, 1.0, 1e-8);
+  EXPECT_NEAR(4 * pressing.press.bond_reaction().z() / fine.normal_force, 1.0, 1e-8);
 }
 
 TEST(ContinuumPress, StopsOnRequest) {
@@ -213,7 +213,7 @@ TEST(ContinuumPress, StopsOnRequest) {
 }
 
 TEST(ContinuumPress, RefusesAMeshOfNothing) {
-  EXPECT_THROW(fem_reference::ContinuumPress(small_press(), "no/such/file.msh"),
+  EXPECT_THROW(fem_reference::ContinuumPress::on(small_press(), "no/such/file.msh"),
                meshes::InvalidInput);
 }
 

@@ -34,15 +34,17 @@ class Pressing {
   explicit Pressing(const fingertip::fem_reference::ReferenceJob& job,
                     std::function<bool()> stop_requested = {})
       : mesh_(job.refinement, sector(job), job.geometry),
-        press(job, mesh_.file(), std::move(stop_requested)) {}
+        made_(fingertip::fem_reference::ContinuumPress::on(job, mesh_.file(),
+                                                           std::move(stop_requested))) {}
 
   const SharedFolder& folder() const { return mesh_.folder(); }
 
  private:
   SharedMesh mesh_;
+  std::unique_ptr<fingertip::fem_reference::ContinuumPress> made_;
 
  public:
-  fingertip::fem_reference::ContinuumPress press;
+  fingertip::fem_reference::ContinuumPress& press = *made_;
 };
 
 /// The state at the job's last sample, reached in steps of at most `longest_step` (R - r).

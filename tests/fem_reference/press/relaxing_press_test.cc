@@ -36,7 +36,7 @@ std::vector<double> forces(const ReferenceJob& job, double relaxing_step = 0.0) 
   if (relaxing_step > 0.0) pressing.press.set_relaxing_step(relaxing_step);
   std::vector<double> result;
   for (const double sample : job.protocol.samples)
-    result.push_back(pressing.press.advance(sample).sample.normal_force);
+    result.push_back(pressing.press.advance(sample).normal_force);
   return result;
 }
 
@@ -121,8 +121,8 @@ TEST(RelaxingPress, ForceIsThatOfTheBond) {
       job.rubber.relaxation.bulk = bulk;
       Pressing pressing(job);
       const PressState state = pressing.press.advance(4e-4);
-      EXPECT_NEAR(pressing.press.bond_reaction().z() / state.sample.normal_force, 1.0, 1e-6);
-      EXPECT_DOUBLE_EQ(state.sample.time, 0.04);
+      EXPECT_NEAR(pressing.press.bond_reaction().z() / state.normal_force, 1.0, 1e-6);
+      EXPECT_DOUBLE_EQ(state.time, 0.04);
     }
 }
 
@@ -132,10 +132,10 @@ TEST(RelaxingPress, GoesOnFromACheckpoint) {
     Pressing whole(job);
     whole.press.advance(2e-4);
     whole.press.save(whole.folder().path());
-    const double wanted = whole.press.advance(4e-4).sample.normal_force;
+    const double wanted = whole.press.advance(4e-4).normal_force;
     Pressing again(job);
     again.press.load(whole.folder().path());
-    EXPECT_NEAR(again.press.advance(4e-4).sample.normal_force / wanted, 1.0, 1e-10);
+    EXPECT_NEAR(again.press.advance(4e-4).normal_force / wanted, 1.0, 1e-10);
   }
 }
 
@@ -168,15 +168,13 @@ TEST(ProgramPress, ReturnsAlongTheElasticCurve) {
     const std::vector<double> down = forces(once);
     const std::vector<PressState> all = states(job);
     ASSERT_EQ(all.size(), 10U);  // 4 down, 4 up, 2 down
-    for (std::size_t i = 0; i < 4; ++i)
-      EXPECT_NEAR(all[i].sample.normal_force / down[i], 1.0, 1e-6);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(all[i].normal_force / down[i], 1.0, 1e-6);
     for (std::size_t i = 0; i < 3; ++i)
-      EXPECT_NEAR(all[4 + i].sample.normal_force / down[2 - i], 1.0, 1e-6);
-    EXPECT_NEAR(all[7].sample.normal_force / down[3], 0.0, 1e-9);
-    EXPECT_LT(all[7].sample.contact_radius, 1e-5);
-    for (std::size_t i = 0; i < 2; ++i)
-      EXPECT_NEAR(all[8 + i].sample.normal_force / down[i], 1.0, 1e-6);
-    EXPECT_TRUE(std::isnan(all[0].sample.time));
+      EXPECT_NEAR(all[4 + i].normal_force / down[2 - i], 1.0, 1e-6);
+    EXPECT_NEAR(all[7].normal_force / down[3], 0.0, 1e-9);
+    EXPECT_LT(all[7].contact_radius, 1e-5);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(all[8 + i].normal_force / down[i], 1.0, 1e-6);
+    EXPECT_TRUE(std::isnan(all[0].time));
   }
 }
 
@@ -186,16 +184,15 @@ TEST(ProgramPress, StickLetsGoOfWhatIsPulled) {
   job.rubber.relaxation = {};
   const std::vector<PressState> all = states(job);
   for (const PressState& state : all) {
-    EXPECT_GE(state.sample.normal_force, 0.0);
-    for (const auto& point : state.contact)
-      EXPECT_GT(point.pressure, -1e-6 * state.sample.max_pressure);
+    EXPECT_GE(state.normal_force, 0.0);
+    for (const auto& point : state.contact) EXPECT_GT(point.pressure, -1e-6 * state.max_pressure);
   }
-  EXPECT_EQ(all[7].sample.normal_force, 0.0);
+  EXPECT_EQ(all[7].normal_force, 0.0);
   for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_NEAR(all[4 + i].sample.normal_force / all[2 - i].sample.normal_force, 1.0, 0.1);
+    EXPECT_NEAR(all[4 + i].normal_force / all[2 - i].normal_force, 1.0, 0.1);
   // Once let go the tip is as new.
   for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_NEAR(all[8 + i].sample.normal_force / all[i].sample.normal_force, 1.0, 5e-3);
+    EXPECT_NEAR(all[8 + i].normal_force / all[i].normal_force, 1.0, 5e-3);
 }
 
 TEST(ProgramPress, HoldsAsLeeAndRadokSay) {
@@ -218,14 +215,13 @@ TEST(ProgramPress, HoldsAsLeeAndRadokSay) {
   for (std::size_t k = 0; k < 14; ++k) {
     const PressState state = pressing.press.advance(course.samples()[k]);
     const double time = motion.samples()[k].time - motion.touch_time();
-    EXPECT_NEAR(state.sample.time, time, 1e-12);
+    EXPECT_NEAR(state.time, time, 1e-12);
     double wanted = 0.0;
     for (std::size_t i = 1; i < times.size() && times[i] <= time + 1e-9; ++i)
       wanted += job.rubber.relaxation.modulus(time - (times[i] + times[i - 1]) / 2) *
                 (curve[i] - curve[i - 1]);
-    EXPECT_NEAR(state.sample.normal_force / wanted, 1.0, 3e-3) << k;
-    RecordProperty("sample" + std::to_string(k),
-                   std::to_string(state.sample.normal_force / wanted - 1));
+    EXPECT_NEAR(state.normal_force / wanted, 1.0, 3e-3) << k;
+    RecordProperty("sample" + std::to_string(k), std::to_string(state.normal_force / wanted - 1));
   }
 }
 
@@ -234,20 +230,20 @@ TEST(ProgramPress, GoesThroughEveryStageOfARubberThatRelaxes) {
     for (const ContactMode contact : {ContactMode::frictionless, ContactMode::stick}) {
       const ReferenceJob job = program_press(strain, contact);
       const std::vector<PressState> usual = states(job), fine = states(job, 1.0 / 128.0);
-      const double largest = usual[3].sample.normal_force;
-      EXPECT_LT(usual[13].sample.normal_force, 0.8 * largest);                 // it has relaxed
-      EXPECT_LT(usual[15].sample.normal_force, usual[2].sample.normal_force);  // hysteresis
+      const double largest = usual[3].normal_force;
+      EXPECT_LT(usual[13].normal_force, 0.8 * largest);          // it has relaxed
+      EXPECT_LT(usual[15].normal_force, usual[2].normal_force);  // hysteresis
       double last = 0.0;
       for (std::size_t i = 0; i < usual.size(); ++i) {
-        const auto& sample = usual[i].sample;
+        const auto& sample = usual[i];
         EXPECT_GT(sample.time, last);
         last = sample.time;
         EXPECT_GE(sample.normal_force, 0.0);
-        EXPECT_NEAR(sample.normal_force, fine[i].sample.normal_force, 2e-3 * largest) << i;
+        EXPECT_NEAR(sample.normal_force, fine[i].normal_force, 2e-3 * largest) << i;
       }
       // After a second of rest the branch of 0.2 s has forgotten most; the rod slows down to its
       // end, so that more has relaxed than on the first way.
-      const double again = usual.back().sample.normal_force / usual[1].sample.normal_force;
+      const double again = usual.back().normal_force / usual[1].normal_force;
       EXPECT_LT(again, 0.95);
       EXPECT_GT(again, 0.8);
     }

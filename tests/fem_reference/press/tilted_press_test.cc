@@ -24,12 +24,12 @@ TEST(TiltedPress, UprightHalfEqualsQuarter) {
     const PressState quarter = pressed(job, 0.05);
     job.protocol.tilt = hardly;
     const PressState half = pressed(job, 0.05);
-    EXPECT_NEAR(half.sample.normal_force / quarter.sample.normal_force, 1.0, 1e-7);
+    EXPECT_NEAR(half.normal_force / quarter.normal_force, 1.0, 1e-7);
     EXPECT_NEAR(half.energy / quarter.energy, 1.0, 1e-7);
-    EXPECT_NEAR(half.sample.max_pressure / quarter.sample.max_pressure, 1.0, 1e-6);
-    EXPECT_NEAR(half.sample.lateral_force_x / half.sample.normal_force, 0.0, 1e-7);
-    EXPECT_NEAR(half.sample.torque_y / half.sample.normal_force, 0.0, 1e-9);
-    EXPECT_NEAR(half.sample.contact_radius, quarter.sample.contact_radius, quarter.node_spacing);
+    EXPECT_NEAR(half.max_pressure / quarter.max_pressure, 1.0, 1e-6);
+    EXPECT_NEAR(half.lateral_force_x / half.normal_force, 0.0, 1e-7);
+    EXPECT_NEAR(half.torque_y / half.normal_force, 0.0, 1e-9);
+    EXPECT_NEAR(half.contact_radius, quarter.contact_radius, quarter.node_spacing);
   }
 }
 
@@ -38,9 +38,9 @@ TEST(TiltedPress, MirrorsWithItsTilt) {
     ReferenceJob job = small_press();
     job.protocol.contact = mode;
     job.protocol.tilt = 0.3;
-    const meshes::PressSample tilted = pressed(job, 0.05).sample;
+    const fem_reference::PressState tilted = pressed(job, 0.05);
     job.protocol.tilt = -0.3;
-    const meshes::PressSample mirrored = pressed(job, 0.05).sample;
+    const fem_reference::PressState mirrored = pressed(job, 0.05);
     EXPECT_NEAR(mirrored.normal_force / tilted.normal_force, 1.0, 1e-6);
     EXPECT_NEAR(mirrored.torque_y / tilted.torque_y, -1.0, 1e-6);
     EXPECT_NEAR(mirrored.lateral_force_x, -tilted.lateral_force_x, 1e-6 * tilted.normal_force);
@@ -58,7 +58,7 @@ TEST(TiltedPress, TorqueIsTheMomentOfTheContactForces) {
     job.protocol.contact = mode;
     for (const double tilt : {0.15, 0.4}) {
       job.protocol.tilt = tilt;
-      const meshes::PressSample sample = pressed(job, 0.05).sample;
+      const fem_reference::PressState sample = pressed(job, 0.05);
       const double R = job.geometry.tip_radius, l = job.geometry.rod_length;
       const double height = R + l * std::cos(tilt);
       const double arm = (sample.torque_y - height * sample.lateral_force_x) / sample.normal_force;
@@ -76,7 +76,7 @@ TEST(TiltedPress, RodTakesWhatThePlaneGives) {
   job.protocol.lateral = 3e-4;
   Pressing pressing(job);
   pressing.press.set_longest_step(0.05);
-  const meshes::PressSample sample = pressing.press.advance(1e-3).sample;
+  const fem_reference::PressState sample = pressing.press.advance(1e-3);
   const meshes::Vector3 bond = pressing.press.bond_reaction();
   EXPECT_NEAR(2 * bond.z() / sample.normal_force, 1.0, 1e-9);
   EXPECT_NEAR(-2 * bond.x() / sample.lateral_force_x, 1.0, 1e-8);
@@ -86,7 +86,7 @@ TEST(LateralPress, StickDragsTheTipAlong) {
   ReferenceJob job = small_press();
   job.protocol.contact = ContactMode::stick;
   job.protocol.lateral = 2e-4;
-  const meshes::PressSample shifted = pressed(job, 0.05).sample;
+  const fem_reference::PressState shifted = pressed(job, 0.05);
   EXPECT_GT(shifted.lateral_force_x, 0.05 * shifted.normal_force);
   // Its moment about the endpoint, but for the shift of the pressure.
   const double height = job.geometry.tip_radius + job.geometry.rod_length;
@@ -94,21 +94,21 @@ TEST(LateralPress, StickDragsTheTipAlong) {
               0.5 * shifted.contact_radius * shifted.normal_force);
 
   job.protocol.lateral = -2e-4;
-  const meshes::PressSample mirrored = pressed(job, 0.05).sample;
+  const fem_reference::PressState mirrored = pressed(job, 0.05);
   EXPECT_NEAR(mirrored.lateral_force_x / shifted.lateral_force_x, -1.0, 1e-6);
   EXPECT_NEAR(mirrored.torque_y / shifted.torque_y, -1.0, 1e-6);
   EXPECT_NEAR(mirrored.normal_force / shifted.normal_force, 1.0, 1e-6);
 
   // The force is linear in the motion while the same nodes touch.
   job.protocol.lateral = 1e-4;
-  EXPECT_NEAR(pressed(job, 0.05).sample.lateral_force_x / shifted.lateral_force_x, 0.5, 0.02);
+  EXPECT_NEAR(pressed(job, 0.05).lateral_force_x / shifted.lateral_force_x, 0.5, 0.02);
 }
 
 TEST(LateralPress, FrictionlessFeelsNothing) {
   ReferenceJob job = small_press();
-  const double still = pressed(job).sample.normal_force;
+  const double still = pressed(job).normal_force;
   job.protocol.lateral = 5e-4;
-  const meshes::PressSample sample = pressed(job).sample;
+  const fem_reference::PressState sample = pressed(job);
   EXPECT_EQ(sample.lateral_force_x, 0.0);
   EXPECT_NEAR(sample.normal_force / still, 1.0, 1e-7);
   EXPECT_NEAR(sample.torque_y / sample.normal_force, 0.0, 1e-9);
@@ -142,12 +142,12 @@ TEST(PressAndSlide, FrictionlessFeelsNothing) {
     job.degree = strain == Strain::finite ? 1 : 2;
     const auto states = states_along(job);
     ASSERT_EQ(states.size(), 4u);
-    EXPECT_EQ(states[1].sample.lateral_displacement, 0.0);
-    EXPECT_EQ(states[3].sample.lateral_displacement, 5e-5);
-    for (const PressState& state : states) EXPECT_EQ(state.sample.lateral_force_x, 0.0);
+    EXPECT_EQ(states[1].lateral_displacement, 0.0);
+    EXPECT_EQ(states[3].lateral_displacement, 5e-5);
+    for (const PressState& state : states) EXPECT_EQ(state.lateral_force_x, 0.0);
     for (const std::size_t i : {2, 3}) {
-      EXPECT_EQ(states[i].sample.indentation, 2e-4);
-      EXPECT_NEAR(states[i].sample.normal_force / states[1].sample.normal_force, 1.0, 1e-9);
+      EXPECT_EQ(states[i].indentation, 2e-4);
+      EXPECT_NEAR(states[i].normal_force / states[1].normal_force, 1.0, 1e-9);
     }
   }
 }
@@ -163,16 +163,16 @@ TEST(PressAndSlide, StuckItIsALinearSpringThatStoresTheWork) {
   upright.protocol.tilt = hardly;  // the half mesh
   const auto straight = states_along(upright);
   for (const std::size_t i : {0, 1})
-    EXPECT_NEAR(states[i].sample.normal_force / straight[i].sample.normal_force, 1.0, 1e-12);
-  const double force = states[3].sample.lateral_force_x;
+    EXPECT_NEAR(states[i].normal_force / straight[i].normal_force, 1.0, 1e-12);
+  const double force = states[3].lateral_force_x;
   EXPECT_GT(force, 0.0);
-  EXPECT_NEAR(states[2].sample.lateral_force_x / force, 0.5, 1e-3);
+  EXPECT_NEAR(states[2].lateral_force_x / force, 0.5, 1e-3);
   const double work = 0.5 * force * 2e-5;
   EXPECT_NEAR((states[3].energy - states[1].energy) / work, 1.0, 0.01);
 
   ReferenceJob diagonal = job;
   diagonal.protocol.lateral_path = meshes::LateralPath::diagonal;
-  EXPECT_LT(states_along(diagonal).back().sample.lateral_force_x, 0.9 * force);
+  EXPECT_LT(states_along(diagonal).back().lateral_force_x, 0.9 * force);
 }
 
 /// Far off laterally the trailing edge is pulled off the plane. Nodes that neither hold where they
@@ -184,9 +184,9 @@ TEST(PressAndSlide, StuckItConvergesFarOffLaterally) {
   ASSERT_EQ(states.size(), job.protocol.samples.size() + 3);
   const std::size_t pressed = job.protocol.samples.size() - 1;
   for (std::size_t i = pressed + 1; i < states.size(); ++i) {
-    EXPECT_GT(states[i].sample.lateral_force_x, states[i - 1].sample.lateral_force_x);
+    EXPECT_GT(states[i].lateral_force_x, states[i - 1].lateral_force_x);
     EXPECT_GT(states[i].energy, states[i - 1].energy);
-    EXPECT_NEAR(states[i].sample.normal_force / states[pressed].sample.normal_force, 1.0, 0.1);
+    EXPECT_NEAR(states[i].normal_force / states[pressed].normal_force, 1.0, 0.1);
   }
 }
 
@@ -197,8 +197,8 @@ TEST(PressAndSlide, CoulombSlidesUnderFrictionTimesPush) {
   const auto states = states_along(job);
   EXPECT_EQ(states[3].sliding_nodes, states[3].active_nodes);
   EXPECT_GT(states[1].active_nodes, states[1].sliding_nodes);
-  EXPECT_NEAR(states[3].sample.lateral_force_x / states[3].sample.normal_force, 0.2, 0.002);
-  EXPECT_LT(std::abs(states[1].sample.lateral_force_x), 1e-3 * states[1].sample.normal_force);
+  EXPECT_NEAR(states[3].lateral_force_x / states[3].normal_force, 0.2, 0.002);
+  EXPECT_LT(std::abs(states[1].lateral_force_x), 1e-3 * states[1].normal_force);
 }
 
 TEST(CoulombPress, LiesBetweenFrictionlessAndStick) {
@@ -207,7 +207,7 @@ TEST(CoulombPress, LiesBetweenFrictionlessAndStick) {
   const auto force = [&](ContactMode mode, double friction) {
     job.protocol.contact = mode;
     job.protocol.friction = friction;
-    return pressed(job, 0.04).sample.normal_force;
+    return pressed(job, 0.04).normal_force;
   };
   const double none = force(ContactMode::frictionless, 0.5);
   const double stuck = force(ContactMode::stick, 0.5);
@@ -228,15 +228,15 @@ TEST(CoulombPress, GrossSlidingPullsWithFrictionTimesPush) {
   job.protocol.friction = 0.2;
   job.protocol.lateral = 3e-3;
   const PressState state = pressed(job, 0.02);
-  const meshes::PressSample& sample = state.sample;
+  const fem_reference::PressState& sample = state;
   EXPECT_LE(sample.lateral_force_x, 0.2 * sample.normal_force * (1 + 1e-9));
   EXPECT_GT(sample.lateral_force_x, 0.198 * sample.normal_force);
   EXPECT_EQ(state.sliding_nodes, state.active_nodes);
 
   job.protocol.lateral = 3e-5;
   const PressState partial = pressed(job, 0.02);
-  EXPECT_LT(partial.sample.lateral_force_x, 0.15 * partial.sample.normal_force);
-  EXPECT_GT(partial.sample.lateral_force_x, 0.0);
+  EXPECT_LT(partial.lateral_force_x, 0.15 * partial.normal_force);
+  EXPECT_GT(partial.lateral_force_x, 0.0);
   EXPECT_LT(partial.sliding_nodes, partial.active_nodes);
 }
 

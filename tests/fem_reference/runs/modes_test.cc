@@ -1,4 +1,4 @@
-#include "fem_reference/runs/modes.h"
+#include "fem_reference/runs/runs.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_generator.h>

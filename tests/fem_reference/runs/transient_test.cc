@@ -1,4 +1,4 @@
-#include "fem_reference/runs/transient.h"
+#include "fem_reference/runs/runs.h"
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/grid_generator.h>
@@ -212,12 +212,9 @@ struct Press {
     job.protocol.speed = speed;
     job.press_to({5e-4, 1e-3, 2e-3});
   }
-  std::unique_ptr<TransientPress> transient() const {
-    return std::make_unique<TransientPress>(job, mesh.file());
-  }
+  std::unique_ptr<TransientPress> transient() const { return TransientPress::on(job, mesh.file()); }
   double static_force(double indentation) const {
-    ContinuumPress press(job, mesh.file());
-    return press.advance(indentation).sample.normal_force;
+    return ContinuumPress::on(job, mesh.file())->advance(indentation).normal_force;
   }
   SharedMesh mesh{0.35};
   ReferenceJob job;
@@ -228,9 +225,8 @@ TEST(TransientPress, IsTheStaticPressWhenSlow) {
     Press press(1e-5, contact);
     const auto transient = press.transient();
     for (const double indentation : press.job.protocol.samples)
-      EXPECT_NEAR(
-          transient->advance(indentation).sample.normal_force / press.static_force(indentation),
-          1.0, contact == ContactMode::frictionless ? 2e-5 : 1e-3)
+      EXPECT_NEAR(transient->advance(indentation).normal_force / press.static_force(indentation),
+                  1.0, contact == ContactMode::frictionless ? 2e-5 : 1e-3)
           << meshes::name(contact) << " " << indentation;
   }
 }
@@ -244,7 +240,7 @@ TEST(TransientPress, ForceConvergesWithTheStep) {
       transient->set_step_factor(factor);
       forces.emplace_back();
       for (const double indentation : press.job.protocol.samples)
-        forces.back().push_back(transient->advance(indentation).sample.normal_force);
+        forces.back().push_back(transient->advance(indentation).normal_force);
     }
     for (std::size_t i = 0; i < press.job.protocol.samples.size(); ++i) {
       const double coarse = std::abs(forces[0][i] / forces[2][i] - 1);
@@ -296,7 +292,7 @@ TEST(TransientPress, BalancesEnergyAndMomentumOfARubberThatRelaxesOnAProgram) {
       const PressState state = transient->advance(place);
       const TransientStep& now = transient->steps().back();
       // Of the bond itself, whose nodes the rod's acceleration loads, too.
-      EXPECT_NEAR(transient->bond_force() / state.sample.normal_force, 1.0, 1e-6) << place;
+      EXPECT_NEAR(transient->bond_force() / state.normal_force, 1.0, 1e-6) << place;
       const double spent = now.kinetic_energy + now.elastic_energy + now.dissipated_energy;
       most_work = std::max(most_work, now.work);
       EXPECT_LT(spent, now.work + 3e-3 * most_work) << place;
@@ -317,12 +313,12 @@ TEST(TransientPress, IsTheRelaxingPressWithoutInertia) {
   const auto transient = press.transient();
   ReferenceJob still = press.job;
   still.analysis = Analysis::static_press;
-  ContinuumPress quiet(still, press.mesh.file());
+  const auto quiet = ContinuumPress::on(still, press.mesh.file());
   const PressCourse course(press.job.protocol, true);
   const double largest = press.static_force(2e-3);
   for (const double place : course.samples()) {
-    const double wanted = quiet.advance(place).sample.normal_force;
-    EXPECT_NEAR(transient->advance(place).sample.normal_force, wanted, 5e-3 * largest) << place;
+    const double wanted = quiet->advance(place).normal_force;
+    EXPECT_NEAR(transient->advance(place).normal_force, wanted, 5e-3 * largest) << place;
   }
 }
 
@@ -333,7 +329,7 @@ TEST(TransientPress, ForceIsThatOfTheBond) {
   const auto transient = press.transient();
   const PressState state = transient->advance(1e-3);
   const double bond = transient->bond_force();
-  EXPECT_NEAR(bond / state.sample.normal_force, 1.0, 1e-6);
+  EXPECT_NEAR(bond / state.normal_force, 1.0, 1e-6);
   // Inertia is at work, or this would tell nothing.
   EXPECT_GT(std::abs(transient->steps().back().contact_force / bond - 1.0), 1e-3);
 }
@@ -347,7 +343,7 @@ TEST(TransientPress, ViscousForceIsTheTangentStiffnessTimesTauTimesSpeed) {
       Press press(speed, contact);
       press.job.rubber.density = 1e-3;
       const double indentation = 1e-3, h = 5e-5;
-      const double force = press.transient()->advance(indentation).sample.normal_force;
+      const double force = press.transient()->advance(indentation).normal_force;
       const double still = press.static_force(indentation);
       const double stiffness =
           (press.static_force(indentation + h) - press.static_force(indentation - h)) / (2 * h);

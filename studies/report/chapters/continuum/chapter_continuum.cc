@@ -15,12 +15,12 @@ namespace {
 
 /// One depth of the press on all meshes that computed it, coarse to fine.
 struct Sample {
-  double depth = meshes::unknown;                     ///< [m]
-  std::vector<double> unknowns, forces;               ///< of each mesh: number, [N]
-  std::vector<int> meshes;                            ///< their numbers, from 1
-  double force = meshes::unknown;                     ///< of the finest [N]
-  double error = meshes::unknown;                     ///< estimated, of the finest [N]
-  std::optional<fem_reference::SampleEntry> details;  ///< the entry of summary.json
+  double depth = meshes::unknown;                    ///< [m]
+  std::vector<double> unknowns, forces;              ///< of each mesh: number, [N]
+  std::vector<int> meshes;                           ///< their numbers, from 1
+  double force = meshes::unknown;                    ///< of the finest [N]
+  double error = meshes::unknown;                    ///< estimated, of the finest [N]
+  std::optional<fem_reference::PressState> details;  ///< the entry of summary.json
 
   double relative_error() const { return error / force; }
 };
@@ -32,9 +32,9 @@ std::vector<Sample> read_samples(const RunData& run) {
     sample.depth = from.indentation;
     sample.force = from.normal_force;
     sample.error = from.force_error;
-    for (const fem_reference::SampleEntry& entry : run.continuum.samples)
+    for (const fem_reference::PressState& entry : run.continuum.samples)
       if (!sample.details && same_depth(entry.indentation, sample.depth)) sample.details = entry;
-    for (const fem_reference::SampleEntry& entry : run.continuum.transient_samples)
+    for (const fem_reference::PressState& entry : run.continuum.transient_samples)
       if (!sample.details && same_depth(entry.indentation, sample.depth)) sample.details = entry;
     samples.push_back(std::move(sample));
   }
@@ -180,7 +180,7 @@ Figure convergence_figure(const RunData& run, const std::vector<Sample>& samples
 }
 
 /// A count of a sample; "–" where summary.json does not have the sample.
-std::string whole(const Sample& sample, long fem_reference::SampleEntry::*number) {
+std::string whole(const Sample& sample, int fem_reference::PressState::*number) {
   return sample.details ? count(double((*sample.details).*number)) : "–";
 }
 
@@ -196,15 +196,15 @@ Cell contact_nodes(const Sample& sample, double radius, bool slides) {
   if (spacing > 0.0 && std::isfinite(radius))
     note = fmt::format("{} along a", number(radius / spacing, 2));
   if (slides)
-    note += fmt::format(", {} slide", whole(sample, &fem_reference::SampleEntry::sliding_nodes));
-  return plain(whole(sample, &fem_reference::SampleEntry::active_nodes), note);
+    note += fmt::format(", {} slide", whole(sample, &fem_reference::PressState::sliding_nodes));
+  return plain(whole(sample, &fem_reference::PressState::active_nodes), note);
 }
 
 Cell iterations(const Sample& sample, bool finite) {
-  std::string note = "contact " + whole(sample, &fem_reference::SampleEntry::active_set_iterations);
+  std::string note = "contact " + whole(sample, &fem_reference::PressState::active_set_iterations);
   if (finite)
-    note = "Newton " + whole(sample, &fem_reference::SampleEntry::newton_iterations) + ", " + note;
-  return plain(whole(sample, &fem_reference::SampleEntry::steps), note);
+    note = "Newton " + whole(sample, &fem_reference::PressState::newton_iterations) + ", " + note;
+  return plain(whole(sample, &fem_reference::PressState::steps), note);
 }
 
 std::vector<SampleColumn> force_columns(const RunData& run) {
@@ -220,7 +220,7 @@ std::vector<SampleColumn> force_columns(const RunData& run) {
                                     with_unit(s.error, shown_units().force, 2));
                      }});
   columns.push_back({plain("Convergence", "order"), [](const Sample& s) {
-                       const auto details = s.details.value_or(fem_reference::SampleEntry());
+                       const auto details = s.details.value_or(fem_reference::PressState());
                        const double order = details.order;
                        return plain(details.convergence.empty() ? "–" : details.convergence,
                                     std::isfinite(order) ? number(order, 2) : "");
@@ -293,10 +293,11 @@ Table sequence_table(const RunData& run, const std::vector<Sample>& samples) {
   table.header = {plain("Mesh"),   plain("Cells"),     plain("Unknowns"),
                   plain("Depths"), plain("Wall time"), plain("Force off the finest", "largest")};
   int number = 0;
-  for (const fem_reference::PressMeshEntry& mesh : run.continuum.meshes) {
+  for (const fem_reference::MeshEntry& mesh : run.continuum.meshes) {
     ++number;
     table.rows.push_back({plain(std::to_string(number)), plain(count(double(mesh.cells))),
-                          plain(count(double(mesh.dofs))), plain(count(double(mesh.samples))),
+                          plain(count(double(mesh.dofs))),
+                          plain(count(double(mesh.samples.value_or(0)))),
                           plain(with_prefix(mesh.wall_time, "s")),
                           plain(percent_magnitude(largest_change(samples, number)))});
   }

@@ -99,7 +99,7 @@ std::string some(std::size_t number) {
 }
 
 std::vector<MeshRow> mesh_rows(const fem_reference::RunSummary& summary) {
-  const fem_reference::FirstMeshEntry& first = summary.mesh;
+  const meshes::MeshQuality& first = summary.mesh;
   return {{plain("Cells", "finest mesh"), some(summary.cells)},
           {plain("Degrees of freedom", "finest mesh"), some(summary.dofs)},
           {plain("Of these in the contact zone"), some(summary.contact_unknowns)},

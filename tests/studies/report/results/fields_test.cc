@@ -148,7 +148,7 @@ using Rows =
                    ContactRow, SnapshotRow, SnapshotPointRow, LatticeModeRow, CubeRow,
                    PublishedStudyRow, EquilibriumStudyRow, VariantRow, TransferRow,
                    fem_reference::ConvergenceRow, fem_reference::PressureRow,
-                   fem_reference::SectionRow, fem_reference::TransientRow, fem_reference::ModeRow,
+                   fem_reference::SectionRow, fem_reference::TransientStep, fem_reference::ModeRow,
                    calibration::FitDataRow, calibration::SurrogateRow, lattice::GraspRow>;
 TYPED_TEST_SUITE(Table, Rows);
 

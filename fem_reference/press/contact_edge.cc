@@ -1,7 +1,8 @@
-#include "fem_reference/press/press_state.h"
+#include "fem_reference/press/contact_edge.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace fingertip::fem_reference::inline press {
@@ -46,6 +47,14 @@ double contact_edge(const std::vector<ContactPoint>& contact, double node_spacin
                       outermost + node_spacing);
   }
   return outermost;
+}
+
+void measure_contact(PressState& state, int nodes_per_ring) {
+  std::ranges::sort(state.contact, {}, &ContactPoint::radius);
+  state.contact_radius = contact_edge(state.contact, state.node_spacing, nodes_per_ring);
+  state.max_pressure = 0.0;
+  for (const ContactPoint& point : state.contact)
+    state.max_pressure = std::max(state.max_pressure, point.pressure);
 }
 
 }  // namespace fingertip::fem_reference::inline press

@@ -1,0 +1,73 @@
+/// What a press yields and on which mesh, of one sample. Free of deal.II.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fem_reference/job/job.h"
+#include "meshes/press/press_response.h"
+
+namespace fingertip::fem_reference::inline job {
+
+/// A node that the plane pushes.
+struct ContactPoint {
+  /// Distance from the axis, of another shape than the dome from the line through where it touches
+  /// first: small strain reference, large strain current [m].
+  double radius = 0.0;
+  double pressure = 0.0;  ///< nodal force over lumped area (large strain: current area) [Pa]
+};
+
+/// What a sample cost.
+struct PressEffort {
+  int steps = 0, newton_iterations = 0, active_set_iterations = 0, cg_iterations = 0;
+};
+
+/// What one sample yields, and what it cost.
+struct PressState : meshes::PressSample, PressEffort {
+  std::vector<ContactPoint> contact;  ///< by increasing radius
+  double node_spacing = 0.0;          ///< of the candidate nodes around the contact edge [m]
+  double min_jacobian = 1.0;          ///< smallest det F at a quadrature point; 1 at small strain
+  /// Stored in the rubber; if it relaxes, after long times of this strain [J].
+  double energy = 0.0;
+  /// About the energy that the mesh stores in excess: G times the sum of the squared error
+  /// indicators (refine()), 2.5 times that on a meridian, up to a factor of order one that meshes
+  /// share [J].
+  double indicator = 0.0;
+  int active_nodes = 0;
+  int sliding_nodes = 0;           ///< Coulomb's friction only
+  double wall_time = 0.0;          ///< [s]
+  std::string convergence;         ///< how forces on the meshes approach a limit, once it is known
+  double order = meshes::unknown;  ///< of that convergence
+};
+/// An entry of summary.json.
+constexpr auto fields_of(const PressState*) {
+  using meshes::newer;
+  return std::tuple_cat(FINGERTIP_FIELDS(PressState, indentation),
+                        newer(FINGERTIP_FIELDS(PressState, lateral_displacement)),
+                        FINGERTIP_FIELDS(PressState, normal_force, contact_radius, max_pressure,
+                                         force_error, convergence, order, min_jacobian),
+                        newer(FINGERTIP_FIELDS(PressState, energy)),
+                        FINGERTIP_FIELDS(PressState, steps, newton_iterations,
+                                         active_set_iterations, cg_iterations, active_nodes),
+                        newer(FINGERTIP_FIELDS(PressState, sliding_nodes, node_spacing)),
+                        FINGERTIP_FIELDS(PressState, wall_time));
+}
+
+/// The same of a press at speed.
+struct TransientState : PressState {};
+constexpr auto fields_of(const TransientState*) {
+  return FINGERTIP_FIELDS(TransientState, indentation, time, normal_force, contact_radius,
+                          max_pressure, force_error, energy, steps, active_set_iterations,
+                          cg_iterations, active_nodes, wall_time);
+}
+
+/// The mesh on which a press is computed.
+struct MeshSummary {
+  std::size_t cells = 0;
+  std::size_t unknowns = 0;
+  std::size_t contact_unknowns = 0;
+  LinearSolver solver = LinearSolver::automatic;
+};
+
+}  // namespace fingertip::fem_reference::inline job
