@@ -8,6 +8,7 @@
 
 #include "lattice/model/embedded_points.h"
 #include "meshes/base/errors.h"
+#include "tests/expectations.h"
 
 using namespace fingertip;
 using meshes::CutCell;
@@ -135,7 +136,8 @@ TEST(GridCells, HingedSliversAreLeftOutAndLargePiecesRefused) {
   ASSERT_EQ(kept.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(kept[i].index, row[i].index);
   with_sliver.back() = box_cell({7, 2, 1}, Vector3::Zero(), Vector3(0.1, 0.1, 0.1));
-  EXPECT_THROW(lattice::largest_piece(grid, with_sliver), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::largest_piece(grid, with_sliver), meshes::InvalidInput,
+                      "lattice.spacing");
   with_sliver.push_back(whole_cell({7, 1, 1}));  // shares a face with both
   EXPECT_EQ(lattice::largest_piece(grid, with_sliver).size(), 8u);
 }
@@ -170,5 +172,6 @@ TEST(EmbeddedPoints, WeightsReproduceAffineFields) {
               cells.corners(cells.cells()[cell]));
   }
   const Vector3 far = grid.axes * (grid.origin + grid.spacing * Vector3(1.5, 1.5, 3.5));
-  EXPECT_THROW(lattice::tie(cells, {far, Vector3::UnitZ(), 1.0}, 1.0), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::tie(cells, {far, Vector3::UnitZ(), 1.0}, 1.0), meshes::InvalidInput,
+                      "lattice.spacing");
 }

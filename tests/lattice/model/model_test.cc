@@ -8,6 +8,7 @@
 
 #include "lattice/statics/cube.h"
 #include "meshes/cells/cubic_grid.h"
+#include "tests/expectations.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
@@ -165,21 +166,23 @@ TEST(CubeLattice, UniformStrainOfTheHookeanCubeStoresTheContinuumsEnergy) {
 }
 
 TEST(LatticeModel, PublishedAloneHasNoCellsToCut) {
-  EXPECT_THROW(
+  EXPECT_THROW_SAYING(
       lattice::build_published_tip({}, {}, settings_for(ModelKind::hookean, Kinematics::small, 8)),
-      meshes::InvalidInput);
-  EXPECT_THROW(
+      meshes::InvalidInput, "lattice.model");
+  EXPECT_THROW_SAYING(
       lattice::build_cut_model({}, {}, settings_for(ModelKind::published, Kinematics::small, 8)),
-      meshes::InvalidInput);
+      meshes::InvalidInput, "lattice.model");
 }
 
 TEST(BuildTip, RefusesWhatCannotBeALattice) {
   auto settings = settings_for(ModelKind::hookean, Kinematics::small, 8);
   settings.spacing = 0.003;
-  EXPECT_THROW(lattice::build_tip({}, {}, settings), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::build_tip({}, {}, settings), meshes::InvalidInput,
+                      "lattice.spacing");
   settings = settings_for(ModelKind::hookean, Kinematics::small, 8);
   settings.constants.k1 = std::nan("");
-  EXPECT_THROW(lattice::build_tip({}, {}, settings), meshes::InvalidInput);
-  EXPECT_THROW(lattice::cube_lattice(ModelKind::central, {1.0, 1.0, 1.0, 0.0}, 1e-3, 0),
-               meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::build_tip({}, {}, settings), meshes::InvalidInput,
+                      "lattice.constants");
+  EXPECT_THROW_SAYING(lattice::cube_lattice(ModelKind::central, {1.0, 1.0, 1.0, 0.0}, 1e-3, 0),
+                      meshes::InvalidInput, "lattice.spacing");
 }

@@ -9,6 +9,7 @@
 #include "lattice/contact/bond.h"
 #include "lattice/forces/energy.h"
 #include "meshes/base/errors.h"
+#include "tests/expectations.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
@@ -159,9 +160,9 @@ TEST(Sector, OfATipStoresItsShareOfTheEnergy) {
 TEST(Sector, DividesOnlyWhatIsSymmetric) {
   for (const ModelKind kind : {ModelKind::published, ModelKind::hookean}) {
     lattice::LatticeSettings settings = settings_for(kind, Kinematics::small, 6);
-    EXPECT_THROW(lattice::build_tip({}, {}, settings, 3), meshes::InvalidInput);
+    EXPECT_THROW_SAYING(lattice::build_tip({}, {}, settings, 3), meshes::InvalidInput, "sectors");
     settings.offset = Vector3(0.3, 0.0, 0.0);
-    EXPECT_THROW(lattice::build_tip({}, {}, settings, 4), meshes::InvalidInput);
+    EXPECT_THROW_SAYING(lattice::build_tip({}, {}, settings, 4), meshes::InvalidInput, "sectors");
     EXPECT_NO_THROW(lattice::build_tip({}, {}, settings, 2));
   }
 }
