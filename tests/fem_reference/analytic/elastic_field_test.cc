@@ -57,9 +57,11 @@ TEST(Checks, NameTheOffender) {
       EXPECT_FALSE(error.violations().front().value.empty());
     }
   }
-  EXPECT_THROW(checked_finite("a", not_a_number), InvalidInput);
-  EXPECT_THROW(checked(field_checks::rubber(1.0, 0.5)), InvalidInput);
-  EXPECT_THROW(checked(field_checks::rubber(-1.0, 0.3)), InvalidInput);
+  EXPECT_THROW_SAYING(checked_finite("a", not_a_number), InvalidInput, "a = nan");
+  EXPECT_THROW_SAYING(checked(field_checks::rubber(1.0, 0.5)), InvalidInput,
+                      "rubber.shear_modulus");
+  EXPECT_THROW_SAYING(checked(field_checks::rubber(-1.0, 0.3)), InvalidInput,
+                      "rubber.youngs_modulus");
 }
 
 }  // namespace

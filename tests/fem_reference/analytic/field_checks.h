@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fem_reference/analytic/elastic_field.h"
+#include "tests/expectations.h"
 
 namespace field_checks {
 
