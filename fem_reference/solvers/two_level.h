@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deal.II/base/subscriptor.h>
+#include <deal.II/lac/precondition.h>
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include <memory>
@@ -41,18 +42,22 @@ class TwoLevelPreconditioner {
 
  private:
   void build_prolongation();
-  void measure_spectrum();
   void collect_rigid_modes();
-  /// Chebyshev iteration for A x = b from x = 0 (Saad, Iterative Methods, algorithm 12.1).
-  void smooth(Vector& x, const Vector& b) const;
   void build_hierarchy(const std::vector<char>& coarse_held);
 
   const Body<3>& body_;
   const LinearSystem& system_;
   SparseMatrix prolongation_;  ///< (fine unknowns, coarse unknowns)
-  Vector inverse_diagonal_;
-  double largest_eigenvalue_ = 0.0;  ///< of D^-1 A
+  struct Jacobi {
+    Vector inverse_diagonal;
+    void vmult(Vector& result, const Vector& v) const {
+      result = v;
+      result.scale(inverse_diagonal);
+    }
+  };
+  std::shared_ptr<Jacobi> jacobi_;
   std::unique_ptr<ProjectedMatrix> projected_;
+  dealii::PreconditionChebyshev<ProjectedMatrix, Vector, Jacobi> smoother_;
   SparseMatrix coarse_matrix_;  ///< with held unknowns eliminated
   std::vector<double> rigid_modes_;
   std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg_;
