@@ -13,6 +13,7 @@
 #include "lattice/model/cut_model.h"
 #include "meshes/cells/cubic_grid.h"
 #include "meshes/cells/surface_points.h"
+#include "tests/expectations.h"
 
 using namespace fingertip;
 using namespace body_sums;
@@ -364,11 +365,12 @@ TEST(CutLattice, PublishedBodyHasEverySpringOfThePaper) {
   EXPECT_TRUE(body.finite && body.fibres.empty() && body.cells.empty());
   const double mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
   EXPECT_NEAR(mass / (rubber.density * geometry.tip_volume()), 1.0, 1e-12);
-  EXPECT_THROW(lattice::body_of(lattice::build_cut_model(
-                                    geometry, rubber,
-                                    settings_for(ModelKind::hookean, Kinematics::small, 0.01 / 6)),
-                                geometry, rubber),
-               meshes::InvalidInput);
+  EXPECT_THROW_SAYING(
+      lattice::body_of(
+          lattice::build_cut_model(geometry, rubber,
+                                   settings_for(ModelKind::hookean, Kinematics::small, 0.01 / 6)),
+          geometry, rubber),
+      meshes::InvalidInput, "lattice.model");
 }
 
 TEST(CutLattice, SymmetryIsThatOfGridAndPress) {

@@ -8,6 +8,7 @@
 #include "body_sums.h"
 #include "lattice/kernels/stencil.h"
 #include "lattice/statics/cut_lattice.h"
+#include "tests/expectations.h"
 
 using namespace fingertip;
 using namespace body_sums;
@@ -262,23 +263,30 @@ TEST(FreeBlock, RefusesWhatIsNoLattice) {
   const auto good = settings_for(ModelKind::hookean, Kinematics::small, rubber);
   const std::array<int, 3> cells{1, 1, 1};
   EXPECT_NO_THROW(lattice::build_free_block(rubber, good, cells));
-  EXPECT_THROW(lattice::build_free_block(rubber, good, {1, 0, 1}), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::build_free_block(rubber, good, {1, 0, 1}), meshes::InvalidInput,
+                      "lattice.spacing");
   auto bad = good;
   bad.spacing = 0.0;
-  EXPECT_THROW(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput,
+                      "lattice.spacing");
   bad = good;
   bad.axes(0, 1) = 0.1;
-  EXPECT_THROW(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput,
+                      "lattice.rotation");
   bad = good;
   bad.axes = -Matrix3d::Identity();
-  EXPECT_THROW(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput,
+                      "lattice.rotation");
   bad = good;
   bad.constants.k1 = -1.0;
-  EXPECT_THROW(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput,
+                      "lattice.constants");
   bad = good;
   bad.constants.k2 = bad.constants.k3 = 0.0;
-  EXPECT_THROW(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput,
+                      "lattice.constants");
   bad = good;
   bad.model = ModelKind::published;
-  EXPECT_THROW(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(lattice::build_free_block(rubber, bad, cells), meshes::InvalidInput,
+                      "lattice.model");
 }

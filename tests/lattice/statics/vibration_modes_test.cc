@@ -13,6 +13,7 @@
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/mode_motion.h"
 #include "meshes/base/errors.h"
+#include "tests/expectations.h"
 
 using namespace fingertip;
 using namespace body_sums;
@@ -282,10 +283,10 @@ TEST(VibrationModes, StopWhenAsked) {
 TEST(VibrationModes, RefuseWhatCannotVibrate) {
   LatticeBody body = block(1e-3, {1, 1, 1});
   EXPECT_EQ(vibration_modes(body, 23).size(), 23u);
-  EXPECT_THROW(vibration_modes(body, 0), meshes::InvalidInput);
-  EXPECT_THROW(vibration_modes(body, 24), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(vibration_modes(body, 0), meshes::InvalidInput, "modes");
+  EXPECT_THROW_SAYING(vibration_modes(body, 24), meshes::InvalidInput, "modes");
   body.mass[3] = 0.0;
-  EXPECT_THROW(vibration_modes(body, 6), meshes::InvalidInput);
+  EXPECT_THROW_SAYING(vibration_modes(body, 6), meshes::InvalidInput, "rubber.density");
   LatticeBody compressed = block(1e-3, {2, 2, 2});
   for (auto& fibre : compressed.fibres) fibre.stiffness *= -10.0;
   EXPECT_THROW(vibration_modes(compressed, 6), meshes::NotConverged);
