@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <ostream>
+#include <sstream>
 
 #include "meshes/base/files.h"
 #include "meshes/press/press_response.h"
@@ -34,6 +35,17 @@ namespace {
 
 using Sets = std::vector<std::string>;
 using Identity = std::function<std::string(const LoadedConfig&)>;
+
+Sets operator+(Sets all, const Sets& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// The words of a text.
+Sets split(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), {}};
+}
 
 std::string press(const LoadedConfig& loaded) {
   return press_job(press_setup(loaded)).key();
@@ -143,6 +155,21 @@ bool lists(const Sets& list, const Key& key) {
   });
 }
 
+struct Base {
+  std::optional<std::string> identity;
+  decltype(LoadedConfig::entries) entries;
+};
+
+/// Most keys are compared with the same.
+const Base& base_of(const World& world, const Sets& sets) {
+  static std::map<Sets, Base> known;
+  const auto [found, anew] = known.try_emplace(Sets{world.name} + sets);
+  Base& base = found->second;
+  if (anew) base.identity = identity_of(world.identity, sets);
+  if (anew && base.identity) base.entries = load_config({{}, sets, {}}).entries;
+  return base;
+}
+
 /// Whether any other value makes another job.
 bool matters(const World& world, const Key& key) {
   Sets sets = world.sets;
@@ -156,26 +183,17 @@ bool matters(const World& world, const Key& key) {
       {"rubber.relaxation_bulk", "rubber.relaxation=[[0.2, \"0.1 s\"]]"}};
   if (const auto own = coefficients.find(key.full_name()); own != coefficients.end())
     sets.emplace_back(own->second);
-  const auto base = identity_of(world.identity, sets);
-  if (!base) return false;
-  const std::string literal = load_config({{}, sets, {}}).entries.at(key.full_name()).literal;
-  for (const std::string& value : other_values(key, literal)) {
-    Sets other = sets;
-    other.push_back(key.full_name() + "=" + value);
-    const auto changed = identity_of(world.identity, other);
-    if (changed && *changed != *base) return true;
-  }
-  return false;
+  const Base& base = base_of(world, sets);
+  if (!base.identity) return false;
+  const std::string literal = base.entries.at(key.full_name()).literal;
+  return std::ranges::any_of(other_values(key, literal), [&](const std::string& value) {
+    const auto changed = identity_of(world.identity, sets + Sets{key.full_name() + "=" + value});
+    return changed && changed != base.identity;
+  });
 }
 
 void PrintTo(const World& world, std::ostream* out) {
   *out << world.name;
-}
-
-Sets joined(std::initializer_list<Sets> parts) {
-  Sets all;
-  for (const Sets& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
 }
 
 /// No result depends on these: screens and threads, what verbs without a cache do, what is asked of
@@ -199,23 +217,12 @@ const Sets moduli_fit = {"calibration.starts", "calibration.seed", "calibration.
                          "calibration.bulk_weight"};
 /// What becomes of a fit: further jobs.
 const Sets follow_up = {"calibration.bias", "calibration.surrogate"};
-const Sets controllers = {"controller.type",
-                          "controller.natural_frequency",
-                          "controller.derivative_filter",
-                          "controller.setpoint_weight",
-                          "controller.bond_compensation",
-                          "controller.force_limit",
-                          "controller.torque_limit",
-                          "controller.sensitivity",
-                          "controller.relay",
-                          "controller.adaptation",
-                          "controller.memory",
-                          "controller.force",
-                          "controller.force_bandwidth",
-                          "controller.touch_force",
-                          "controller.release_force",
-                          "controller.confirmation",
-                          "controller.dwell"};
+const Sets controllers = split(
+    "controller.type controller.natural_frequency controller.derivative_filter "
+    "controller.setpoint_weight controller.bond_compensation controller.force_limit "
+    "controller.torque_limit controller.sensitivity controller.relay controller.adaptation "
+    "controller.memory controller.force controller.force_bandwidth controller.touch_force "
+    "controller.release_force controller.confirmation controller.dwell");
 const Sets no_continuum = {"reference."}, no_fit = {"calibration."}, no_grasp = {"grasp."},
            no_modes = {"lattice.modes"}, no_rod = {"rod.", "hardware."},
            no_time = {"run.",          "controller.",   "press.speed", "press.clearance",
@@ -235,150 +242,75 @@ const World worlds[] = {
     {"controlled press",
      {},
      press,
-     joined({nowhere, diagonal, no_continuum, no_fit, no_grasp, no_modes})},
+     nowhere + diagonal + no_continuum + no_fit + no_grasp + no_modes},
     {"driven press",
      {"press.mode=quasi-static"},
      press,
-     joined({nowhere, diagonal, no_continuum, no_fit, no_grasp, no_modes, no_rod, controllers})},
+     nowhere + diagonal + no_continuum + no_fit + no_grasp + no_modes + no_rod + controllers},
     {"static press",
      {"press.mode=static", "press.lateral=1 mm"},
      press,
-     joined({nowhere,
-             no_continuum,
-             no_fit,
-             no_grasp,
-             no_modes,
-             no_rod,
-             no_time,
-             no_friction,
-             relaxation,
-             {"rubber.density", "rubber.retardation_time"}})},
+     nowhere + no_continuum + no_fit + no_grasp + no_modes + no_rod + no_time + no_friction +
+         relaxation + Sets{"rubber.density", "rubber.retardation_time"}},
     {"lattice's modes",
      {"press.mode=static"},
      lattice_modes,
-     joined({nowhere,
-             no_continuum,
-             no_fit,
-             no_grasp,
-             no_rod,
-             no_time,
-             relaxation,
-             {"press.", "obstacle.", "rubber.retardation_time"}})},
+     nowhere + no_continuum + no_fit + no_grasp + no_rod + no_time + relaxation +
+         split("press. obstacle. rubber.retardation_time")},
     {"grasp",
      {},
      grasp,
-     joined({nowhere,
-             diagonal,
-             no_continuum,
-             no_fit,
-             no_modes,
-             no_rod,
-             controllers,
-             // The rods are driven as the grip says; it takes symplectic Euler alone.
-             {"obstacle.", "press.mode", "press.tilt", "press.lateral", "press.depth",
-              "press.speed", "press.samples", "press.program", "press.gravity", "press.duration",
-              "run.integrator", "run.tolerance", "run.energy_bound", "run.symmetry"}})},
+     nowhere + diagonal + no_continuum + no_fit + no_modes + no_rod + controllers +
+         // The rods are driven as the grip says; it takes symplectic Euler alone.
+         split("obstacle. press.mode press.tilt press.lateral press.depth press.speed "
+               "press.samples press.program press.gravity press.duration run.integrator "
+               "run.tolerance run.energy_bound run.symmetry")},
     {"continuum",
      {"press.lateral=1 mm"},
      continuum,
-     joined({nowhere,
-             no_fit,
-             no_grasp,
-             no_rod,
-             no_time,
-             // Aside, so that it is no meridian.
-             {"lattice.", "press.mode", "rubber.density", "rubber.retardation_time",
-              "reference.field_sectors"}})},
+     nowhere + no_fit + no_grasp + no_rod + no_time +
+         // Aside, so that it is no meridian.
+         split(
+             "lattice. press.mode rubber.density rubber.retardation_time reference.field_sectors")},
     {"continuum in time",
      {"reference.mode=transient"},
      continuum,
-     joined({nowhere,
-             no_fit,
-             no_grasp,
-             no_rod,
-             no_friction,
-             diagonal,
-             // It knows small strain and upright presses that start at the plane.
-             {"run.", "controller.", "lattice.", "press.mode", "press.clearance", "press.gravity",
-              "press.duration", "press.tilt", "press.lateral", "obstacle.along", "obstacle.offset",
-              "reference.strain", "reference.law"}})},
+     nowhere + no_fit + no_grasp + no_rod + no_friction + diagonal +
+         // It knows small strain and upright presses that start at the plane.
+         split("run. controller. lattice. press.mode press.clearance press.gravity press.duration "
+               "press.tilt press.lateral obstacle.along obstacle.offset reference.strain "
+               "reference.law")},
     {"continuum's modes",
      {"reference.mode=modes"},
      continuum,
-     joined({nowhere,
-             no_fit,
-             no_grasp,
-             no_rod,
-             no_time,
-             {"lattice.", "press.", "obstacle.", "rubber.retardation_time", "rubber.relaxation",
-              "rubber.relaxation_bulk", "reference.field_sectors", "reference.law"}})},
+     nowhere + no_fit + no_grasp + no_rod + no_time +
+         split("lattice. press. obstacle. rubber.retardation_time rubber.relaxation "
+               "rubber.relaxation_bulk reference.field_sectors reference.law")},
     {"fit to moduli",
      {"calibration.problem=moduli", "lattice.model=central"},
      calibration,
-     joined({nowhere,
-             no_continuum,
-             no_grasp,
-             no_modes,
-             no_rod,
-             no_time,
-             follow_up,
-             {"press.",
-              "obstacle.",
-              "geometry.rod_radius",
-              "geometry.sleeve_length",
-              "geometry.rod_length",
-              "lattice.offset",
-              "lattice.rotation",
-              "lattice.constants",
-              "lattice.kinematics",
-              "lattice.ligament_stiffness",
-              "lattice.contact_stiffness",
-              "calibration.data",
-              "calibration.conditions",
-              "calibration.depth",
-              "calibration.points",
-              "calibration.parameters",
-              "calibration.forward",
-              "calibration.prior",
-              "calibration.model_error",
-              "calibration.robust_width",
-              "calibration.poisson_range",
-              "calibration.evaluations",
-              "calibration.profile"}})},
+     nowhere + no_continuum + no_grasp + no_modes + no_rod + no_time + follow_up +
+         split("press. obstacle. geometry.rod_radius geometry.sleeve_length geometry.rod_length "
+               "lattice.offset lattice.rotation lattice.constants lattice.kinematics "
+               "lattice.ligament_stiffness lattice.contact_stiffness calibration.data "
+               "calibration.conditions calibration.depth calibration.points calibration.parameters "
+               "calibration.forward calibration.prior calibration.model_error "
+               "calibration.robust_width calibration.poisson_range calibration.evaluations "
+               "calibration.profile")},
     {"fit to the continuum's curves",
      {"calibration.problem=curve", "calibration.points=2", "lattice.spacing=tip_radius/6"},
      calibration,
-     joined({nowhere,
-             no_grasp,
-             no_modes,
-             no_rod,
-             no_time,
-             no_friction,
-             diagonal,
-             moduli_fit,
-             follow_up,
-             beside,
-             own_depths,
-             relaxation,
-             {"calibration.data", "calibration.forward", "calibration.poisson_range"}})},
+     nowhere + no_grasp + no_modes + no_rod + no_time + no_friction + diagonal + moduli_fit +
+         follow_up + beside + own_depths + relaxation +
+         split("calibration.data calibration.forward calibration.poisson_range")},
     {"fit of the damping",
      {"calibration.problem=damping", "calibration.points=2", "lattice.spacing=tip_radius/6"},
      calibration,
-     joined({nowhere,
-             no_grasp,
-             no_modes,
-             no_rod,
-             no_friction,
-             diagonal,
-             moduli_fit,
-             follow_up,
-             beside,
-             own_depths,
-             controllers,
-             relaxation,
-             // Presses come from far enough; tau alone is free.
-             {"press.clearance", "calibration.data", "calibration.forward",
-              "calibration.poisson_range", "calibration.parameters", "calibration.profile"}})},
+     nowhere + no_grasp + no_modes + no_rod + no_friction + diagonal + moduli_fit + follow_up +
+         beside + own_depths + controllers + relaxation +
+         // Presses come from far enough; tau alone is free.
+         split("press.clearance calibration.data calibration.forward calibration.poisson_range "
+               "calibration.parameters calibration.profile")},
 };
 
 class IdentityOfAJob : public testing::TestWithParam<World> {};
@@ -429,7 +361,7 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
     EXPECT_TRUE(differs(experiment, matters)) << matters;
   write_text(folder / "travel.csv",
              "position [mm],force [mN],sigma [mN]\n0,0,1\n0.5,10,1\n1,25,1\n1.5,45,1\n");
-  const Sets travel = joined({experiment, {data("travel.csv")}});
+  const Sets travel = experiment + Sets{data("travel.csv")};
   for (const char* matters :
        {"calibration.rig={touch_offset = \"0.1 mm\"}", "calibration.rig={compliance = \"fit\"}",
         "calibration.rig={compliance = \"1 mm/N\"}",
@@ -438,7 +370,7 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
     EXPECT_TRUE(differs(travel, matters)) << matters;
   // A rubber that relaxes knows the time, which speed tells where a file does not.
   const Sets relaxing =
-      joined({experiment, {"rubber.relaxation=[[0.2, \"0.1 s\"]]", "press.speed=1 mm/s"}});
+      experiment + Sets{"rubber.relaxation=[[0.2, \"0.1 s\"]]", "press.speed=1 mm/s"};
   for (const char* matters : {"press.speed=2 mm/s", "rubber.relaxation=[[0.3, \"0.1 s\"]]",
                               "rubber.relaxation=[[0.2, \"0.2 s\"]]",
                               "calibration.parameters=[\"modulus\", \"relaxation_g1\"]"})
@@ -464,7 +396,7 @@ TEST(IdentityOfAPlan, ChangesWithItsPressesAndTheirNoise) {
         "calibration.rig={compliance = \"fit\"}", "calibration.data=[\"a.csv\"]",
         "calibration.conditions=[\"obstacle.shape=sphere; obstacle.radius=5 mm\"]",
         "rubber.youngs_modulus=5 kPa"}) {
-    const auto other = identity_of(plan, joined({base, {matters}}));
+    const auto other = identity_of(plan, base + Sets{matters});
     EXPECT_TRUE(other) << matters;
     EXPECT_NE(other, key) << matters;
   }
@@ -497,12 +429,12 @@ TEST(IdentityOfAJob, KnowsTheLawAtLargeStrain) {
              finite = {"reference.strain=finite"};
   for (const auto& [identity, sets] :
        {std::pair(Identity(press), lattice), std::pair(Identity(continuum), finite)}) {
-    const Sets gent = joined({sets, {"rubber.law=gent", "rubber.gent_jm=9.0"}});
+    const Sets gent = sets + Sets{"rubber.law=gent", "rubber.gent_jm=9.0"};
     const auto base = identity_of(identity, sets), with_gent = identity_of(identity, gent);
     EXPECT_TRUE(base && with_gent);
     EXPECT_NE(with_gent, base);
-    EXPECT_NE(identity_of(identity, joined({gent, {"rubber.gent_jm=10.0"}})), with_gent);
-    EXPECT_NE(identity_of(identity, joined({gent, {"rubber.volumetric=quadratic"}})), with_gent);
+    EXPECT_NE(identity_of(identity, gent + Sets{"rubber.gent_jm=10.0"}), with_gent);
+    EXPECT_NE(identity_of(identity, gent + Sets{"rubber.volumetric=quadratic"}), with_gent);
   }
 }
 
