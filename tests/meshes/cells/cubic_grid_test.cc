@@ -8,6 +8,8 @@
 #include <numeric>
 #include <random>
 
+#include "tests/expectations.h"
+
 using namespace fingertip::meshes;
 
 namespace {
@@ -157,17 +159,21 @@ TEST(CoveringGrid, RefusesDirectionsThatAreNoRotation) {
   mirror(2, 2) = -1.0;
   stretch(0, 0) = 1.001;
   for (const Eigen::Matrix3d& axes : {mirror, stretch}) {
-    EXPECT_THROW(covering_grid(Geometry{}, 1e-3, Vector3::Zero(), 1, axes), InvalidInput);
+    EXPECT_THROW_SAYING(covering_grid(Geometry{}, 1e-3, Vector3::Zero(), 1, axes), InvalidInput,
+                        "lattice.rotation");
   }
 }
 
 TEST(CoveringGrid, RefusesSpacingsWithoutTwoCellsThroughTheRubber) {
   const Geometry geometry;
   for (const double spacing : {0.0, -1e-3, 0.0026, std::nan("")}) {
-    EXPECT_THROW(covering_grid(geometry, spacing, Vector3::Zero(), 1), InvalidInput) << spacing;
+    EXPECT_THROW_SAYING(covering_grid(geometry, spacing, Vector3::Zero(), 1), InvalidInput,
+                        "lattice.spacing")
+        << spacing;
   }
   EXPECT_NO_THROW(covering_grid(geometry, 0.0025, Vector3::Zero(), 1));
-  EXPECT_THROW(covering_grid(geometry, 1e-3, Vector3(0, 0, 1.5), 1), InvalidInput);
+  EXPECT_THROW_SAYING(covering_grid(geometry, 1e-3, Vector3(0, 0, 1.5), 1), InvalidInput,
+                      "lattice.offset");
 }
 
 }  // namespace

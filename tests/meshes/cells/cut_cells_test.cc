@@ -9,6 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "tests/expectations.h"
+
 using namespace fingertip::meshes;
 
 namespace {
@@ -263,9 +265,11 @@ TEST(CutCells, RefuseImpossibleRequests) {
   const Geometry geometry;
   const CubicGrid grid = covering_grid(geometry, 0.0025, Vector3::Zero(), 1);
   for (const double smallest : {-1e-9, 1.0, std::nan("")}) {
-    EXPECT_THROW(cut_cells(geometry, grid, smallest), InvalidInput) << smallest;
+    EXPECT_THROW_SAYING(cut_cells(geometry, grid, smallest), InvalidInput, "smallest_fraction")
+        << smallest;
   }
-  EXPECT_THROW(cut_cells({.rod_radius = 0.02}, grid, 0.0), InvalidInput);
+  EXPECT_THROW_SAYING(cut_cells({.rod_radius = 0.02}, grid, 0.0), InvalidInput,
+                      "geometry.rod_radius");
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "tests/expectations.h"
+
 using namespace fingertip::meshes;
 
 namespace {

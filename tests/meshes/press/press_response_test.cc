@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "meshes/base/errors.h"
+#include "tests/expectations.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip::meshes;
@@ -112,10 +113,10 @@ TEST_F(PressResponseFile, StagesOfAProgramFollowTheFirstLoading) {
   EXPECT_TRUE(power_law(2.0, 1.5, 4, 2e-3).following().empty());
 
   const std::string titles = "indentation [m],normal_force [N],time [s],stage\n0.2,1,1,1\n";
-  EXPECT_NE(refusal(titles + "0.1,1,2,1\n").find("increase"), std::string::npos);
-  EXPECT_NE(refusal(titles + "0.2,1,1,2\n").find("times must increase"), std::string::npos);
-  EXPECT_NE(refusal(titles + "0.1,1,2,0\n").find("not decrease"), std::string::npos);
-  EXPECT_NE(refusal(titles + "0.3,1,2,\n").find("every row or none"), std::string::npos);
+  EXPECT_TRUE(says(refusal(titles + "0.1,1,2,1\n"), "increase"));
+  EXPECT_TRUE(says(refusal(titles + "0.2,1,1,2\n"), "times must increase"));
+  EXPECT_TRUE(says(refusal(titles + "0.1,1,2,0\n"), "not decrease"));
+  EXPECT_TRUE(says(refusal(titles + "0.3,1,2,\n"), "every row or none"));
 }
 
 TEST_F(PressResponseFile, AcceptsColumnsInAnyOrderAndUnknownOnes) {
@@ -127,33 +128,28 @@ TEST_F(PressResponseFile, AcceptsColumnsInAnyOrderAndUnknownOnes) {
 
 TEST_F(PressResponseFile, RefusesDamagedFilesWithFileAndLine) {
   const std::string titles = "indentation [m],normal_force [N]\n";
-  EXPECT_NE(refusal("depth,normal_force [N]\n").find("response.csv:1"), std::string::npos);
-  EXPECT_NE(refusal(titles + "0.1,1\n0.2\n").find("response.csv:3"), std::string::npos);
-  EXPECT_NE(refusal(titles + "0.1,one\n").find("response.csv:2, normal_force [N] = one"),
-            std::string::npos);
-  EXPECT_NE(refusal(titles + "0.1,nan\n").find("finite"), std::string::npos);
-  EXPECT_NE(refusal(titles + ",1\n").find("response.csv:2"), std::string::npos);
-  EXPECT_NE(refusal(titles + "0.2,1\n0.1,2\n").find("increase"), std::string::npos);
-  EXPECT_NE(refusal(titles + "0.2,1\n0.2,2\n").find("increase"), std::string::npos);
+  EXPECT_TRUE(says(refusal("depth,normal_force [N]\n"), "response.csv:1"));
+  EXPECT_TRUE(says(refusal(titles + "0.1,1\n0.2\n"), "response.csv:3"));
+  EXPECT_TRUE(says(refusal(titles + "0.1,one\n"), "response.csv:2, normal_force [N] = one"));
+  EXPECT_TRUE(says(refusal(titles + "0.1,nan\n"), "finite"));
+  EXPECT_TRUE(says(refusal(titles + ",1\n"), "response.csv:2"));
+  EXPECT_TRUE(says(refusal(titles + "0.2,1\n0.1,2\n"), "increase"));
+  EXPECT_TRUE(says(refusal(titles + "0.2,1\n0.2,2\n"), "increase"));
   const std::string lateral =
       "indentation [m],normal_force [N],lateral_displacement [m]\n0.2,1,0.1\n";
-  EXPECT_NE(refusal(lateral + "0.2,2,0.1\n").find("response.csv:3"), std::string::npos);
-  EXPECT_NE(refusal(lateral + "0.1,2,0.2\n").find("response.csv:3"), std::string::npos);
-  EXPECT_NE(refusal(titles + "0.1,1\n0.2,2.0").find("truncated"), std::string::npos);
-  EXPECT_NE(refusal("").find("empty"), std::string::npos);
-  EXPECT_NE(refusal(titles + "0.1,1e70\n").find("finite"), std::string::npos);
-  EXPECT_NE(refusal("indentation [m],indentation [m]\n").find("once"), std::string::npos);
-  EXPECT_THROW(PressResponse::read_csv(folder_ / "absent.csv"), InvalidInput);
-  EXPECT_THROW(PressResponse::read_csv(folder_.path()), InvalidInput);
+  EXPECT_TRUE(says(refusal(lateral + "0.2,2,0.1\n"), "response.csv:3"));
+  EXPECT_TRUE(says(refusal(lateral + "0.1,2,0.2\n"), "response.csv:3"));
+  EXPECT_TRUE(says(refusal(titles + "0.1,1\n0.2,2.0"), "truncated"));
+  EXPECT_TRUE(says(refusal(""), "empty"));
+  EXPECT_TRUE(says(refusal(titles + "0.1,1e70\n"), "finite"));
+  EXPECT_TRUE(says(refusal("indentation [m],indentation [m]\n"), "once"));
+  EXPECT_THROW_SAYING(PressResponse::read_csv(folder_ / "absent.csv"), InvalidInput, "absent.csv");
+  EXPECT_THROW_SAYING(PressResponse::read_csv(folder_.path()), InvalidInput, "is no file");
 }
 
 TEST_F(PressResponseFile, AnUnwritableFolderIsNamed) {
-  try {
-    PressResponse().write_csv(folder_ / "absent" / "response.csv");
-    FAIL() << "wrote into a folder that does not exist";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("absent"), std::string::npos);
-  }
+  EXPECT_TRUE(refuses<std::runtime_error>(
+      [&] { PressResponse().write_csv(folder_ / "absent" / "response.csv"); }, "absent"));
 }
 
 TEST(PressResponse, InterpolationPassesThroughSamplesAndOrigin) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/expectations.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip::meshes;
