@@ -7,8 +7,7 @@
 #include <cstdlib>
 
 #include "calibration/material_tests/strain_grid.h"
-#include "meshes/base/errors.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/measurements/material_files.h"
 
 using namespace fingertip;
 using namespace fingertip::studies;
@@ -17,30 +16,6 @@ using calibration::StressMeasure;
 using calibration::TestKind;
 
 namespace {
-
-class MaterialFiles : public testing::Test {
- protected:
-  /// The description, its data in data.csv.
-  MaterialTestFile read(const std::string& description, const std::string& data) {
-    write_text(folder_ / "data.csv", data);
-    write_text(folder_ / "tests.toml", description);
-    return read_material_tests(folder_ / "tests.toml");
-  }
-  /// One problem that says all these parts.
-  void expect_refused(const std::string& description, const std::string& data,
-                      const std::vector<std::string>& parts) {
-    try {
-      read(description, data);
-      ADD_FAILURE() << "accepted: " << description;
-    } catch (const meshes::InvalidInput& error) {
-      for (const std::string& part : parts)
-        EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
-            << part << " in " << error.what();
-    }
-  }
-
-  TemporaryFolder folder_;
-};
 
 const std::string two_columns =
     "[data]\nseparator = \"whitespace\"\nheader = false\n"
@@ -57,7 +32,7 @@ TEST_F(MaterialFiles, TwoColumnsWithoutAHeader) {
   EXPECT_EQ(test.kind, TestKind::equibiaxial);
   EXPECT_EQ(test.deformation, (std::vector{1.027, 1.065}));
   EXPECT_NEAR(test.stress[1], 157e3, 1e-6);
-  EXPECT_NE(test.source.find("data.csv (SHA-256 "), std::string::npos);
+  EXPECT_TRUE(says(test.source, "data.csv (SHA-256 "));
   EXPECT_FALSE(test.rate);
 }
 
@@ -85,7 +60,7 @@ TEST_F(MaterialFiles, AMachinesCompressionWithLinesAboveTheHeader) {
   EXPECT_NEAR(*test.rate, 0.01 / 60.0 / 0.03, 1e-12);
   EXPECT_FALSE(file.stuck[0]);
   ASSERT_EQ(file.notes.size(), 1u);
-  EXPECT_NE(file.notes[0].find("1 rows where the strain steps back"), std::string::npos);
+  EXPECT_TRUE(says(file.notes[0], "1 rows where the strain steps back"));
   const auto branch = read(head + "rows = [4, 6]\nplates = \"stick\"\n", data);
   EXPECT_EQ(branch.fitted[0].deformation.size(), 3u);
   ASSERT_TRUE(branch.stuck[0]);

@@ -5,9 +5,7 @@
 
 #include <cmath>
 
-#include "meshes/base/errors.h"
-#include "studies/measurements/material_test_file.h"
-#include "tests/temporary_folder.h"
+#include "tests/studies/measurements/material_files.h"
 
 using namespace fingertip;
 using namespace fingertip::studies;
@@ -17,26 +15,7 @@ using calibration::TestKind;
 
 namespace {
 
-class TimedFiles : public testing::Test {
- protected:
-  MaterialTestFile read(const std::string& description, const std::string& data) {
-    write_text(folder_ / "data.csv", data);
-    write_text(folder_ / "tests.toml", description);
-    return read_material_tests(folder_ / "tests.toml");
-  }
-  void expect_refused(const std::string& description, const std::string& data,
-                      const std::vector<std::string>& parts) {
-    try {
-      read(description, data);
-      ADD_FAILURE() << "accepted: " << description;
-    } catch (const meshes::InvalidInput& error) {
-      for (const std::string& part : parts)
-        EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
-            << part << " in " << error.what();
-    }
-  }
-  TemporaryFolder folder_;
-};
+class TimedFiles : public MaterialFiles {};
 
 const std::string relaxation_head =
     "[[test]]\nname = \"creep\"\nkind = \"relaxation\"\npath = \"data.csv\"\n"
@@ -118,10 +97,8 @@ TEST_F(TimedFiles, CyclesOfShearKeepTheirSigns) {
   EXPECT_NEAR(test.deformation[2], -0.2, 1e-15);
   EXPECT_NEAR(test.stress[2], -3000.0, 1e-9);
   ASSERT_EQ(file.notes.size(), 2u);
-  EXPECT_NE(file.notes[0].find("slow: a relaxation counts at its rate, 0.1 1/s"), std::string::npos)
-      << file.notes[0];
-  EXPECT_NE(file.notes[1].find("slower: without speed or rate it counts as after long times"),
-            std::string::npos);
+  EXPECT_TRUE(says(file.notes[0], "slow: a relaxation counts at its rate, 0.1 1/s"));
+  EXPECT_TRUE(says(file.notes[1], "slower: without speed or rate it counts as after long times"));
 }
 
 /// A strip that has crept is slack on the way back: 0 N is what the machine reads, no stress of the
@@ -159,7 +136,7 @@ TEST_F(TimedFiles, LongFilesAreThinnedAndSaySo) {
   EXPECT_EQ(times.front(), 0.001);
   EXPECT_EQ(times.back(), 30.0);
   EXPECT_LT(times[60] / times[0], 1e3);
-  EXPECT_NE(relaxation.notes.at(0).find("of 30000 rows"), std::string::npos);
+  EXPECT_TRUE(says(relaxation.notes.at(0), "of 30000 rows"));
   std::string description = by_column;
   description.replace(description.find("relaxation"), 10, "cycles");
   const auto cycled = read(description, cycles);
