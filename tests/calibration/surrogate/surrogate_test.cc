@@ -15,6 +15,7 @@
 #include "calibration/statistics/non_negative.h"
 #include "lattice/press/static_press.h"
 #include "meshes/base/errors.h"
+#include "tests/expectations.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -51,15 +52,6 @@ double slope_error(const Surrogate& curve, double from) {
   for (double d = from; d <= depth; d += 1e-5)
     worst = std::max(worst, std::abs(curve.stiffness(d) / hertz_slope(d) - 1.0));
   return worst;
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const meshes::InvalidInput& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(NonNegative, MeetsTheConditionsOfALeastSquare) {
@@ -195,7 +187,7 @@ TEST(Surrogate, JsonRebuildsTheVeryCurve) {
   }
   EXPECT_EQ(json.at("condition"), "stick, tilt 20 deg");
   EXPECT_EQ(json.at("units").at("stiffness"), "N/m");
-  EXPECT_NE(read.table().statement.find("20 samples"), std::string::npos);
+  EXPECT_TRUE(says(read.table().statement, "20 samples"));
 }
 
 TEST(Surrogate, CsvHoldsTheCurveAndItsBand) {
@@ -225,15 +217,13 @@ TEST(Surrogate, RefusesBadSamples) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(text([](Samples&) {}), "");
-  EXPECT_NE(text([](Samples& s) { s.resize(4); }).find("at least 5"), std::string::npos);
-  EXPECT_NE(
-      text([](Samples& s) { s[3].indentation = s[2].indentation; }).find("samples[3].indentation"),
-      std::string::npos);
-  EXPECT_NE(text([](Samples& s) { s[0].indentation = 0.0; }).find("samples[0]"), std::string::npos);
-  EXPECT_NE(text([&](Samples& s) { s[5].force = nan; }).find("samples[5].force"),
-            std::string::npos);
-  EXPECT_NE(text([](Samples& s) { s[1].force = -1.0; }).find("positive"), std::string::npos);
-  EXPECT_NE(text([](Samples& s) { s[1].deviation = -1.0; }).find("deviation"), std::string::npos);
+  EXPECT_TRUE(says(text([](Samples& s) { s.resize(4); }), "at least 5"));
+  EXPECT_TRUE(says(text([](Samples& s) { s[3].indentation = s[2].indentation; }),
+                   "samples[3].indentation"));
+  EXPECT_TRUE(says(text([](Samples& s) { s[0].indentation = 0.0; }), "samples[0]"));
+  EXPECT_TRUE(says(text([&](Samples& s) { s[5].force = nan; }), "samples[5].force"));
+  EXPECT_TRUE(says(text([](Samples& s) { s[1].force = -1.0; }), "positive"));
+  EXPECT_TRUE(says(text([](Samples& s) { s[1].deviation = -1.0; }), "deviation"));
 }
 
 TEST(Surrogate, RefusesBadFiles) {
@@ -250,26 +240,22 @@ TEST(Surrogate, RefusesBadFiles) {
   };
   EXPECT_EQ(text([](nlohmann::json&) {}), "");
   for (const auto& [key, value] : good.items())
-    EXPECT_NE(text([name = key](nlohmann::json& j) { j.erase(name); }).find(file.string()),
-              std::string::npos)
+    EXPECT_TRUE(says(text([name = key](nlohmann::json& j) { j.erase(name); }), file.string()))
         << key;
   using Json = nlohmann::json;
-  EXPECT_NE(text([](Json& j) { j["force"].erase(3); }).find("one length"), std::string::npos);
-  EXPECT_NE(text([](Json& j) { j["knots"][3] = j["knots"][2]; }).find("knots[3]"),
-            std::string::npos);
-  EXPECT_NE(text([](Json& j) { j["force"][3] = j["force"][2].get<double>() * 0.9; }).find("fall"),
-            std::string::npos);
-  EXPECT_NE(
-      text([](Json& j) { j["stiffness"][5] = 1e3 * j["stiffness"][5].get<double>(); }).find("fall"),
-      std::string::npos)
+  EXPECT_TRUE(says(text([](Json& j) { j["force"].erase(3); }), "one length"));
+  EXPECT_TRUE(says(text([](Json& j) { j["knots"][3] = j["knots"][2]; }), "knots[3]"));
+  EXPECT_TRUE(
+      says(text([](Json& j) { j["force"][3] = j["force"][2].get<double>() * 0.9; }), "fall"));
+  EXPECT_TRUE(says(text([](Json& j) { j["stiffness"][5] = 1e3 * j["stiffness"][5].get<double>(); }),
+                   "fall"))
       << "too steep at a knot, the cubic swings back";
-  EXPECT_NE(text([](Json& j) { j["force"][0] = 1.0; }).find("force[0]"), std::string::npos);
-  EXPECT_NE(text([](Json& j) { j["units"]["force"] = "gf"; }).find("units"), std::string::npos);
-  EXPECT_NE(text([](Json& j) { j["band"][2] = "wide"; }).find("no curve"), std::string::npos);
+  EXPECT_TRUE(says(text([](Json& j) { j["force"][0] = 1.0; }), "force[0]"));
+  EXPECT_TRUE(says(text([](Json& j) { j["units"]["force"] = "gf"; }), "units"));
+  EXPECT_TRUE(says(text([](Json& j) { j["band"][2] = "wide"; }), "no curve"));
   write_text(file, "{\"knots\": [");
-  EXPECT_NE(refusal([&] { read_surrogate_json(file); }).find("no curve"), std::string::npos);
-  EXPECT_NE(refusal([&] { read_surrogate_json(folder / "absent"); }).find("cannot be read"),
-            std::string::npos);
+  EXPECT_TRUE(says(refusal([&] { read_surrogate_json(file); }), "no curve"));
+  EXPECT_TRUE(says(refusal([&] { read_surrogate_json(folder / "absent"); }), "cannot be read"));
 }
 
 TEST(Surrogate, IsTheStiffnessOfALattice) {

@@ -221,12 +221,15 @@ TEST(SurfacePoints, DoNotClusterAtThePole) {
 TEST(SurfacePoints, RefuseImpossibleRequests) {
   const Geometry geometry;
   for (const double spacing : {0.0, -1e-3, 9.9e-6, 0.0101, std::nan("")}) {
-    EXPECT_THROW(surface_points(geometry, ProfileSurface::contact, spacing), InvalidInput)
+    EXPECT_THROW_SAYING(surface_points(geometry, ProfileSurface::contact, spacing), InvalidInput,
+                        "surface_points.spacing")
         << spacing;
   }
   const Geometry inverted{.rod_radius = 0.011};
-  EXPECT_THROW(surface_points(inverted, ProfileSurface::free, 1e-3), InvalidInput);
-  EXPECT_THROW(surface_area(inverted, ProfileSurface::free), InvalidInput);
+  EXPECT_THROW_SAYING(surface_points(inverted, ProfileSurface::free, 1e-3), InvalidInput,
+                      "geometry.rod_radius");
+  EXPECT_THROW_SAYING(surface_area(inverted, ProfileSurface::free), InvalidInput,
+                      "geometry.rod_radius");
 }
 
 }  // namespace
