@@ -31,20 +31,13 @@ void append(std::vector<Violation>& found, const std::vector<Violation>& more) {
 void check_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSettings& settings,
                int sectors) {
   std::vector<Violation> found = geometry.violations();
-  append(found, material_violations(rubber, settings));
-  append(found, rotation_violations(settings.axes));
+  append(found, cell_violations(rubber, settings));
+  append(found, settings.grid_violations(geometry));
   if (settings.spacing < smallest_spacing * geometry.tip_radius) {
     found.push_back({"lattice.spacing", meshes::to_text(settings.spacing) + " m",
                      "the spacing of cells cut by true surfaces must be at least R/320",
                      "choose a coarser lattice"});
   }
-  const auto check_factor = [&found](const char* key, double factor) {
-    if (std::isfinite(factor) && factor > 0.0) return;
-    found.push_back({key, meshes::to_text(factor), "the factor on ties must be finite and positive",
-                     "1 is the standard tie"});
-  };
-  check_factor("lattice.ligament_stiffness", settings.ligament_stiffness);
-  check_factor("lattice.contact_stiffness", settings.contact_stiffness);
   append(found, sector_violations(geometry, settings, sectors));
   if (!found.empty()) throw meshes::InvalidInput(found);
 }

@@ -1,9 +1,7 @@
 #include "lattice/model/formulation.h"
 
-#include <cmath>
 #include <string>
 
-#include "meshes/base/files.h"
 #include "meshes/rubber/hyperelastic_law.h"
 
 namespace fingertip::lattice::inline model {
@@ -81,34 +79,22 @@ Formulation spring_formulation(ModelKind kind, Kinematics kinematics,
   return formulation;
 }
 
-std::vector<Violation> material_violations(const Rubber& rubber, const LatticeSettings& settings) {
+std::vector<Violation> cell_violations(const Rubber& rubber, const LatticeSettings& settings) {
   std::vector<Violation> found = rubber.violations();
+  for (Violation& violation : settings.material_violations(rubber))
+    found.push_back(std::move(violation));
   if (settings.model == ModelKind::published) {
     found.push_back({"lattice.model", "published", "the published lattice has no cells to cut",
                      "choose central, hookean or network"});
-  }
-  if (settings.model == ModelKind::network) {
-    if (settings.kinematics == Kinematics::finite && found.empty())
-      return meshes::large_strain_violations(rubber);
+  } else if (settings.kinematics == Kinematics::small) {
     return found;
-  }
-  const meshes::StrainEnergy usual;
-  if (settings.kinematics == Kinematics::finite && rubber.energy.law != usual.law) {
+  } else if (settings.model == ModelKind::network) {
+    return found.empty() ? meshes::large_strain_violations(rubber) : found;
+  } else if (rubber.energy.law != meshes::StrainEnergy().law) {
     found.push_back({"rubber.law", std::string(meshes::name(rubber.energy.law)),
                      "at finite kinematics a lattice of model " +
                          std::string(name(settings.model)) + " has no law of large strain",
                      "take lattice.model = \"network\", or kinematics = \"small\""});
-  }
-  const SpringConstants& k = settings.constants;
-  const auto not_negative = [](double value) { return std::isfinite(value) && value >= 0.0; };
-  if (!(not_negative(k.k1) && not_negative(k.k2) && not_negative(k.k3) && k.k2 + k.k3 > 0.0 &&
-        std::isfinite(k.kappa))) {
-    found.push_back({"lattice.constants",
-                     "k1 " + meshes::to_text(k.k1) + ", k2 " + meshes::to_text(k.k2) + ", k3 " +
-                         meshes::to_text(k.k3) + " N/m",
-                     "spring constants must be finite and not negative, and some diagonal must "
-                     "resist shear",
-                     "use the model's closed form or a calibration"});
   }
   return found;
 }

@@ -44,7 +44,7 @@ CellMaterial network_material(const meshes::StrainEnergy& energy, double shear, 
                               double share);
 
 /// settings.constants are those of hookean (kappa included) and central, the network takes G and
-/// lambda of the rubber. Settings must be free of material_violations.
+/// lambda of the rubber. Settings must be free of cell_violations.
 Formulation formulation_for(const meshes::Rubber& rubber, const LatticeSettings& settings);
 
 /// Central springs k1, k2, k3 throughout and, for hookean, cells that resist changes of volume:
@@ -52,9 +52,9 @@ Formulation formulation_for(const meshes::Rubber& rubber, const LatticeSettings&
 Formulation spring_formulation(ModelKind kind, Kinematics kinematics,
                                const SpringConstants& constants, double retardation_time);
 
-/// The rubber's broken rules, the published model, constants that are negative or without a
-/// diagonal, nu < 0 in the network at finite strain.
-std::vector<meshes::Violation> material_violations(const meshes::Rubber& rubber,
-                                                   const LatticeSettings& settings);
+/// The rubber's broken rules, LatticeSettings::material_violations, the published model, and laws
+/// of large strain that the model does not have.
+std::vector<meshes::Violation> cell_violations(const meshes::Rubber& rubber,
+                                               const LatticeSettings& settings);
 
 }  // namespace fingertip::lattice::inline model

@@ -23,27 +23,6 @@ bool is_rotated(const LatticeSettings& settings) {
   return !settings.axes.isIdentity(1e-12);
 }
 
-/// Grids and rubbers that a model does not stand.
-void add_model(std::vector<Violation>& found, const LatticeSettings& l,
-               const meshes::Rubber& rubber) {
-  if (l.model == ModelKind::published && is_rotated(l))
-    found.push_back({"lattice.rotation", "", "the published lattice is aligned with the rod",
-                     "leave the rotation at 0, or take another model"});
-  for (const Violation& violation : rotation_violations(l.axes)) found.push_back(violation);
-  const double nu = rubber.poissons_ratio();
-  if (l.model == ModelKind::network && l.kinematics == Kinematics::finite && nu < -1e-12)
-    found.push_back({"rubber.youngs_modulus", "Poisson's ratio " + meshes::to_text(nu),
-                     "the network at finite strain needs Poisson's ratio >= 0: below, its energy "
-                     "falls without bound as a cell collapses",
-                     "take lattice.kinematics = small, or another rubber"});
-  if (l.model == ModelKind::hookean && l.kinematics == Kinematics::finite &&
-      l.constants.kappa < 0.0)
-    found.push_back({"lattice.kinematics", "finite",
-                     "hookean at finite strain needs kappa >= 0 (Poisson's ratio >= 1/4): below, a "
-                     "cell gains energy by any change of volume",
-                     "take the model network, or lattice.kinematics = small"});
-}
-
 /// The bond's area shrinks with the rod; a thread through a cell holds nothing.
 double coarsest_for_bond(const meshes::Geometry& geometry, ModelKind model) {
   return model != ModelKind::published && geometry.is_dome()
@@ -78,45 +57,65 @@ void add_ties(std::vector<Violation>& found, const LatticeSettings& l,
 
 }  // namespace
 
-std::vector<Violation> rotation_violations(const Eigen::Matrix3d& axes) {
-  const Eigen::Matrix3d defect = axes.transpose() * axes - Eigen::Matrix3d::Identity();
-  if (axes.allFinite() && defect.cwiseAbs().maxCoeff() < 1e-9 && axes.determinant() > 0.0)
-    return {};
-  return {{"lattice.rotation", "", "the grid's directions must be orthonormal and right-handed",
-           "give three angles, or a rotation matrix"}};
-}
-
 double coarsest_spacing(const meshes::Geometry& geometry, ModelKind model) {
   return std::min(geometry.coarsest_spacing(), coarsest_for_bond(geometry, model));
 }
 
-std::vector<Violation> LatticeSettings::violations(const meshes::Geometry& geometry,
-                                                   const meshes::Rubber& rubber) const {
-  const LatticeSettings& l = *this;
+std::vector<Violation> LatticeSettings::grid_violations(const meshes::Geometry& geometry) const {
   std::vector<Violation> found;
-  if (!(positive(l.spacing) && l.spacing <= geometry.coarsest_spacing()))
-    found.push_back(meshes::too_coarse(geometry, l.spacing));
-  if (!(l.offset.allFinite() && l.offset.cwiseAbs().maxCoeff() <= 1.0)) {
+  if (!(positive(spacing) && spacing <= geometry.coarsest_spacing()))
+    found.push_back(meshes::too_coarse(geometry, spacing));
+  if (!(offset.allFinite() && offset.cwiseAbs().maxCoeff() <= 1.0)) {
     found.push_back({"lattice.offset", "",
                      "every component of the offset must lie between -1 and 1 spacing",
                      "shift the grid by less"});
   }
-  add_model(found, l, rubber);
-  const SpringConstants& k = l.constants;
-  const double needed = l.model == ModelKind::published ? k.k1 + k.k2 + k.k3 : k.k2 + k.k3;
-  const bool springs = not_negative(k.k1) && not_negative(k.k2) && not_negative(k.k3) &&
-                       needed > 0.0 && std::isfinite(k.kappa);
-  // The network takes G and lambda from the rubber.
-  if (l.model != ModelKind::network && !springs) {
-    found.push_back(
-        {"lattice.constants",
-         "k1 " + meshes::to_text(k.k1) + ", k2 " + meshes::to_text(k.k2) + ", k3 " +
-             meshes::to_text(k.k3) + " N/m",
-         "spring constants must be finite and not negative, and some diagonal must resist "
-         "shear",
-         "use the model's closed form or a calibration"});
+  add_ties(found, *this, geometry);
+  return found;
+}
+
+std::vector<Violation> LatticeSettings::material_violations(const meshes::Rubber& rubber) const {
+  std::vector<Violation> found;
+  if (model == ModelKind::published && is_rotated(*this))
+    found.push_back({"lattice.rotation", "", "the published lattice is aligned with the rod",
+                     "leave the rotation at 0, or take another model"});
+  const Eigen::Matrix3d defect = axes.transpose() * axes - Eigen::Matrix3d::Identity();
+  if (!(axes.allFinite() && defect.cwiseAbs().maxCoeff() < 1e-9 && axes.determinant() > 0.0))
+    found.push_back({"lattice.rotation", "",
+                     "the grid's directions must be orthonormal and right-handed",
+                     "give three angles, or a rotation matrix"});
+  if (model == ModelKind::network) {  // takes G and lambda from the rubber
+    const double nu = rubber.poissons_ratio();
+    if (kinematics == Kinematics::finite && nu < -1e-12)
+      found.push_back({"rubber.youngs_modulus", "Poisson's ratio " + meshes::to_text(nu),
+                       "the network at finite strain needs Poisson's ratio >= 0: below, its energy "
+                       "falls without bound as a cell collapses",
+                       "take lattice.kinematics = small, or another rubber"});
+    return found;
   }
-  add_ties(found, l, geometry);
+  const SpringConstants& k = constants;
+  const double needed = model == ModelKind::published ? k.k1 + k.k2 + k.k3 : k.k2 + k.k3;
+  if (!(not_negative(k.k1) && not_negative(k.k2) && not_negative(k.k3) && needed > 0.0 &&
+        std::isfinite(k.kappa))) {
+    found.push_back({"lattice.constants",
+                     "k1 " + meshes::to_text(k.k1) + ", k2 " + meshes::to_text(k.k2) + ", k3 " +
+                         meshes::to_text(k.k3) + " N/m",
+                     "spring constants must be finite and not negative, and some diagonal must "
+                     "resist shear",
+                     "use the model's closed form or a calibration"});
+  }
+  return found;
+}
+
+std::vector<Violation> LatticeSettings::violations(const meshes::Geometry& geometry,
+                                                   const meshes::Rubber& rubber) const {
+  std::vector<Violation> found = grid_violations(geometry);
+  for (Violation& violation : material_violations(rubber)) found.push_back(std::move(violation));
+  if (model == ModelKind::hookean && kinematics == Kinematics::finite && constants.kappa < 0.0)
+    found.push_back({"lattice.kinematics", "finite",
+                     "hookean at finite strain needs kappa >= 0 (Poisson's ratio >= 1/4): below, a "
+                     "cell gains energy by any change of volume",
+                     "take the model network, or lattice.kinematics = small"});
   return found;
 }
 

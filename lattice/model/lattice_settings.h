@@ -26,13 +26,14 @@ struct LatticeSettings {
   /// What this geometry and this rubber cannot be built of.
   std::vector<meshes::Violation> violations(const meshes::Geometry& geometry,
                                             const meshes::Rubber& rubber) const;
+  /// The parts of that: of spacing, offset and ties; of axes, constants and rubber, but for what an
+  /// energy without a bound leaves to chance (kappa < 0).
+  std::vector<meshes::Violation> grid_violations(const meshes::Geometry& geometry) const;
+  std::vector<meshes::Violation> material_violations(const meshes::Rubber& rubber) const;
 };
 
 /// The coarsest spacing that a model of this geometry can be built with: through the thinnest wall,
 /// and for the bond to a dome's rod [m].
 double coarsest_spacing(const meshes::Geometry& geometry, ModelKind model);
-
-/// Empty if `axes` is a rotation.
-std::vector<meshes::Violation> rotation_violations(const Eigen::Matrix3d& axes);
 
 }  // namespace fingertip::lattice::inline model

@@ -168,8 +168,7 @@ LatticeBody block_body(const LatticeModel& model) {
 
 LatticeBody build_free_block(const Rubber& rubber, const LatticeSettings& settings,
                              const std::array<int, 3>& cells) {
-  std::vector<Violation> found = material_violations(rubber, settings);
-  for (const Violation& violation : rotation_violations(settings.axes)) found.push_back(violation);
+  std::vector<Violation> found = cell_violations(rubber, settings);
   if (!(std::isfinite(settings.spacing) && settings.spacing > 0.0) ||
       *std::min_element(cells.begin(), cells.end()) < 1) {
     found.push_back({"lattice.spacing", meshes::to_text(settings.spacing) + " m",
