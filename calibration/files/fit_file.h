@@ -58,14 +58,17 @@ inline bool is_open(std::string_view unit, double estimate, double lower, double
 }
 
 /// What the runs test says of a curve's residuals.
-struct StructureEntry {
-  long runs = 0;
-  double probability = meshes::unknown;
+struct ResidualStructure {
+  long runs = 0;  ///< stretches of one sign; residuals of exactly zero do not count
+  /// Of so few runs or fewer, were the signs in random order: the exact distribution of Wald and
+  /// Wolfowitz (1940) given how many are positive and negative. Where all have one sign, which says
+  /// nothing of order: 2^(1-n), as for signs that are drawn independently. 1 for less than two.
+  double probability = 1.0;
   std::string statement;
 };
-constexpr auto fields_of(const StructureEntry*) {
+constexpr auto fields_of(const ResidualStructure*) {
   using meshes::named;
-  using Whole = StructureEntry;
+  using Whole = ResidualStructure;
   return named("runs probability statement", &Whole::runs, &Whole::probability, &Whole::statement);
 }
 
@@ -83,35 +86,51 @@ constexpr auto fields_of(const LeftOutEntry*) {
       newer(named("failure", &Whole::failure)));
 }
 
-/// Repeats of one press: curves of the same finger, pressed in the same way. SI, lists per repeat,
-/// or per step of the travel since touch.
-struct RepeatsEntry {
+/// Repeats of one press, two or more curves of the same finger, pressed in the same way; an entry
+/// per repeat where nothing else is said. SI.
+struct Repeats {
   std::vector<std::string> curves;
+  /// Force of the repeat over that of the fit, its touch, zero and drift fitted for itself, and the
+  /// standard error that the residuals yield.
   std::vector<double> factors, factor_errors;
-  double deviation = meshes::unknown, probability = meshes::unknown;
+  /// Standard deviation of the factors between repeats beyond their errors, by the method of
+  /// moments (DerSimonian & Laird, Controlled Clinical Trials 7, 177, 1986). 0: none is seen.
+  double deviation = 0.0;
+  /// That factors that are the same scatter as much (Cochran's Q is chi-square of n - 1).
+  double probability = 1.0;
+  /// At equal steps of the travel since touch that all have [m]: mean force, standard deviation
+  /// between repeats, and that which the noise of their rows explains, NaN where unknown [N].
   std::vector<double> travel, mean, scatter, noise;
+  std::vector<std::size_t> places = {};  ///< of the curves in the fit; not in the file
 };
-constexpr auto fields_of(const RepeatsEntry*) {
+constexpr auto fields_of(const Repeats*) {
   using meshes::named;
-  using Whole = RepeatsEntry;
+  using Whole = Repeats;
   return named("curves factors factor_errors deviation probability travel mean scatter noise",
                &Whole::curves, &Whole::factors, &Whole::factor_errors, &Whole::deviation,
                &Whole::probability, &Whole::travel, &Whole::mean, &Whole::scatter, &Whole::noise);
 }
 
-/// What a file tells besides the values that are fitted: Course.
-struct CourseEntry {
-  std::size_t rows = 0;
-  double noise = meshes::unknown, rows_per_value = 1.0, loop = meshes::unknown,
-         play = meshes::unknown, hold_time = meshes::unknown, relaxation = meshes::unknown;
-  std::vector<double> back_x, back_y, held_time, held_y;
+/// What a file tells besides the values that are fitted; SI, NaN where unknown.
+struct LoadingHistory {
+  std::size_t rows = 0;            ///< of the file; 0: unknown
+  double noise = meshes::unknown;  ///< standard deviation of a single row [y]
+  double rows_per_value = 1.0;     ///< that were averaged
+  /// Area between loading and unloading over the loading's work. Below 0 the way back lies above:
+  /// no rubber gives work, it is the machine's play or lag, which shifts it by `play` [m].
+  double loop = meshes::unknown, play = meshes::unknown;
+  /// Of the longest hold under load: how long [s], and the share by which the force falls from that
+  /// at the end of the loading; forces [y] over the time since then [s], thinned.
+  double hold_time = meshes::unknown, relaxation = meshes::unknown;
+  std::vector<double> held_time, held_y;
+  std::vector<double> back_x, back_y;  ///< the unloading branch, thinned
 
   /// Of a value that is fitted, the mean of some rows.
   double noise_of_value() const { return noise / std::sqrt(std::max(1.0, rows_per_value)); }
 };
-constexpr auto fields_of(const CourseEntry*) {
+constexpr auto fields_of(const LoadingHistory*) {
   using meshes::named;
-  using Whole = CourseEntry;
+  using Whole = LoadingHistory;
   return std::tuple_cat(named("rows noise", &Whole::rows, &Whole::noise),
                         newer(named("rows_per_value", &Whole::rows_per_value)),
                         named("loop", &Whole::loop), newer(named("play", &Whole::play)),
@@ -125,9 +144,9 @@ struct CurveEntry {
   std::string name, condition, x_quantity, y_quantity;
   std::size_t points = 0;
   double worst_relative_residual = meshes::unknown, rms_relative_residual = meshes::unknown;
-  StructureEntry structure;
+  ResidualStructure structure;
   std::optional<LeftOutEntry> left_out;
-  std::optional<CourseEntry> course;
+  std::optional<LoadingHistory> course;
 };
 constexpr auto fields_of(const CurveEntry*) {
   using meshes::named, meshes::newer;
@@ -208,14 +227,17 @@ constexpr auto fields_of(const RigFile*) {
                &Whole::compliance, &Whole::force_offset, &Whole::drift);
 }
 
-/// What the model of a fit may have left out.
-struct AccusationEntry {
+/// What freeing a number that the model of a fit leaves out would do (statistics/score_tests.h).
+struct ScoreTest {
   std::string name, of, cause, unit;
-  double amount = meshes::unknown, decrease = meshes::unknown, probability = meshes::unknown;
+  double amount = 0.0;        ///< the number then, in `unit`
+  double decrease = 0.0;      ///< of chi-square; without sigma of squares over their variance
+  double probability = 1.0;   ///< of at least that decrease if the number were 0
+  std::string share_of = {};  ///< OmittedEffect::share_of; not in the file
 };
-constexpr auto fields_of(const AccusationEntry*) {
+constexpr auto fields_of(const ScoreTest*) {
   using meshes::named;
-  using Whole = AccusationEntry;
+  using Whole = ScoreTest;
   return named("name of cause unit amount decrease probability", &Whole::name, &Whole::of,
                &Whole::cause, &Whole::unit, &Whole::amount, &Whole::decrease, &Whole::probability);
 }
@@ -329,10 +351,10 @@ struct FitFile {
   ValidityEntry validity;
   std::vector<std::string> failed;
   std::optional<RigFile> rig;
-  std::vector<AccusationEntry> lack_of_fit;
+  std::vector<ScoreTest> lack_of_fit;
   std::vector<NextEntry> next;
   std::optional<ContactEntry> contact;
-  std::vector<RepeatsEntry> repeats;
+  std::vector<Repeats> repeats;
   std::string statement;
 
   bool empty() const { return problem.empty(); }

@@ -39,10 +39,14 @@ constexpr auto fields_of(const FitConstants*) {
 
 /// Elastic constants of the infinite lattice [Pa].
 struct AchievedEntry {
-  double youngs_modulus_100 = meshes::unknown, youngs_modulus_110 = meshes::unknown,
-         youngs_modulus_111 = meshes::unknown, shear_modulus = meshes::unknown,
-         poissons_ratio_100 = meshes::unknown, bulk_modulus = meshes::unknown,
-         anisotropy = meshes::unknown;
+  double youngs_modulus_100 = meshes::unknown;  ///< E along a cube axis
+  double youngs_modulus_110 = meshes::unknown;  ///< E along a face diagonal
+  double youngs_modulus_111 = meshes::unknown;  ///< E along a body diagonal
+  double shear_modulus = meshes::unknown;       ///< C44: shear of a cube face along a cube edge
+  double poissons_ratio_100 =
+      meshes::unknown;                    ///< lateral contraction in tension along a cube axis
+  double bulk_modulus = meshes::unknown;  ///< K = (C11 + 2 C12)/3
+  double anisotropy = meshes::unknown;    ///< Zener's A = 2 C44/(C11 - C12), 1 when isotropic
 };
 constexpr auto fields_of(const AchievedEntry*) {
   using meshes::named;

@@ -29,10 +29,4 @@ inline FitConstants constants_entry(lattice::ModelKind model,
   return entry;
 }
 
-inline AchievedEntry achieved_entry(const ElasticModuli& moduli) {
-  return {moduli.youngs_modulus_100, moduli.youngs_modulus_110, moduli.youngs_modulus_111,
-          moduli.shear_modulus,      moduli.poissons_ratio_100, moduli.bulk_modulus,
-          moduli.anisotropy};
-}
-
 }  // namespace fingertip::calibration::inline material

@@ -3,20 +3,14 @@
 
 #include <Eigen/Core>
 
+#include "calibration/files/moduli_file.h"
 #include "lattice/model/constants.h"
 
 namespace fingertip::calibration::inline material {
 
 /// The engineering constants of a cubic material; SI.
-struct ElasticModuli {
+struct ElasticModuli : AchievedEntry {
   double c11 = 0.0, c12 = 0.0, c44 = 0.0;  ///< stiffness in Voigt's notation [Pa]
-  double youngs_modulus_100 = 0.0;         ///< E along a cube axis [Pa]
-  double youngs_modulus_110 = 0.0;         ///< E along a face diagonal [Pa]
-  double youngs_modulus_111 = 0.0;         ///< E along a body diagonal [Pa]
-  double shear_modulus = 0.0;              ///< C44: shear of a cube face along a cube edge [Pa]
-  double poissons_ratio_100 = 0.0;         ///< lateral contraction under tension along a cube axis
-  double bulk_modulus = 0.0;               ///< K = (C11 + 2 C12)/3 [Pa]
-  double anisotropy = 0.0;                 ///< Zener's A = 2 C44/(C11 - C12), 1 when isotropic
 };
 
 /// The engineering constants that follow from C11, C12, C44 (Nye, Physical Properties of

@@ -262,7 +262,7 @@ std::optional<std::string> contradiction_of_moduli(const std::vector<MaterialTes
 void add_misfits(LawFit& result, const std::vector<MaterialTest>& tests) {
   for (const TestMisfit& misfit : result.fitted)
     if (misfit.structure.probability < unlikely_order)
-      result.contradictions.push_back("residuals of " + misfit.test + " (rms " +
+      result.contradictions.push_back("residuals of " + misfit.name + " (rms " +
                                       size_text(misfit.rms_relative) +
                                       "): " + misfit.structure.statement);
   if (result.fit.chi_square_probability && result.fit.birge_ratio == 1.0) return;
@@ -343,7 +343,7 @@ void add_missed_predictions(LawFit& result) {
   for (const TestMisfit& misfit : result.predicted) {
     if (misfit.largest_relative <= miss && misfit.rms_relative <= miss) continue;
     result.contradictions.push_back(
-        misfit.test + ", which was not fitted, is missed by " + size_text(misfit.rms_relative) +
+        misfit.name + ", which was not fitted, is missed by " + size_text(misfit.rms_relative) +
         " (rms), " + size_text(misfit.largest_relative) + " at most" +
         (misfit.in_range ? "" : "; its stretches go beyond those of the fitted tests"));
   }
@@ -351,7 +351,7 @@ void add_missed_predictions(LawFit& result) {
     for (const TestMisfit& misfit : *list) {
       const double measured = misfit.loop_measured, computed = misfit.loop_computed;
       if (!(std::abs(computed - measured) > miss * std::abs(measured))) continue;
-      result.contradictions.push_back("the loops of " + misfit.test + " hold " +
+      result.contradictions.push_back("the loops of " + misfit.name + " hold " +
                                       rounded(measured, 3) + " J/m^3, those of the law " +
                                       rounded(computed, 3));
     }

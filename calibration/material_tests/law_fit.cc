@@ -114,7 +114,7 @@ TestMisfit predict(const LawFit& fit, const MaterialTest& test, TestWeights weig
   if (!broken.empty()) throw InvalidInput(broken);
   const std::vector<double> scales = scales_of(test, weights);
   TestMisfit misfit;
-  misfit.test = test.name;
+  misfit.name = test.name;
   misfit.points = test.stress.size();
   const auto range = stretch_range({test});
   misfit.in_range = range[0] >= 0.999 * fit.tested[0] && range[1] <= 1.001 * fit.tested[1];

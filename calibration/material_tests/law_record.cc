@@ -5,6 +5,7 @@
 
 #include "calibration/files/words.h"
 #include "calibration/material_tests/relaxation_starts.h"
+#include "calibration/statistics/fit_entries.h"
 
 namespace fingertip::calibration::inline material_tests {
 
@@ -12,38 +13,10 @@ using meshes::unknown;
 
 namespace {
 
-ParameterEntry law_parameter(const LawFit& fit, std::size_t i) {
-  const Eigen::Index at = Eigen::Index(i);
-  ParameterEntry entry;
-  entry.name = name(fit.fit.parameters[i]);
-  entry.unit = unit(fit.fit.parameters[i]);
-  entry.estimate = fit.fit.estimates(at);
-  entry.standard_error = fit.fit.standard_errors(at);
-  entry.lower = fit.fit.lower(at);
-  entry.upper = fit.fit.upper(at);
-  entry.at_bound = fit.fit.at_bound[i];
-  return entry;
-}
-
 LawTestEntry law_test(const LawChoice& law, const MaterialTest& test, const TestMisfit& misfit,
                       const char* use) {
-  LawTestEntry entry;
-  entry.name = test.name;
-  entry.kind = name(test.kind);
-  entry.use = use;
-  entry.points = misfit.points;
-  entry.rms = misfit.rms;
-  entry.rms_relative = misfit.rms_relative;
-  entry.largest_relative = misfit.largest_relative;
-  entry.sum_of_squares = misfit.sum_of_squares;
-  entry.within = misfit.within;
-  entry.in_range = misfit.in_range;
-  entry.structure = {misfit.structure.runs, misfit.structure.probability,
-                     misfit.structure.statement};
-  entry.course = name(test.course);
-  entry.rate = test.rate;
-  entry.loop_measured = misfit.loop_measured;
-  entry.loop_computed = misfit.loop_computed;
+  LawTestEntry entry{misfit, std::string(name(test.kind)), use, std::string(name(test.course)),
+                     test.rate};
   if (const auto found = test.published.find(calibration::name(law)); found != test.published.end())
     entry.published = found->second;
   return entry;
@@ -54,12 +27,6 @@ std::optional<InstabilityEntry> instability_entry(const std::optional<meshes::In
   return InstabilityEntry{std::string(name(at->test)), at->stretch};
 }
 
-std::vector<std::vector<double>> matrix_rows(const Eigen::MatrixXd& matrix) {
-  std::vector<std::vector<double>> rows;
-  for (const auto& row : matrix.rowwise()) rows.emplace_back(row.begin(), row.end());
-  return rows;
-}
-
 LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
                    const std::vector<MaterialTest>& held_back) {
   LawEntry entry;
@@ -67,10 +34,10 @@ LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
   entry.failure = fit.failure;
   if (!fit.failure.empty()) return entry;
   for (std::size_t i = 0; i < fit.fit.parameters.size(); ++i)
-    entry.parameters.push_back(law_parameter(fit, i));
+    entry.parameters.push_back(parameter_entry(fit.fit, i));
   entry.shear_modulus = fit.law.shear_modulus;
   entry.aicc = fit.aicc;
-  entry.covariance = matrix_rows(fit.fit.covariance);
+  entry.covariance = rows(fit.fit.covariance);
   for (std::size_t i = 0; i < tests.size(); ++i)
     entry.tests.push_back(law_test(fit.choice, tests[i], fit.fitted[i], "fit"));
   for (std::size_t i = 0; i < held_back.size(); ++i)
@@ -78,11 +45,7 @@ LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
   entry.unstable_in_tests = instability_entry(fit.unstable_in_tests);
   entry.unstable_in_use = instability_entry(fit.unstable_in_use);
   entry.unstable_in_press = instability_entry(fit.unstable_in_press);
-  for (const Minimum& minimum : fit.fit.minima)
-    entry.minima.push_back({{minimum.estimates.begin(), minimum.estimates.end()},
-                            minimum.loss,
-                            minimum.iterations,
-                            minimum.converged});
+  entry.minima = minimum_entries(fit.fit);
   entry.contradictions = fit.contradictions;
   return entry;
 }

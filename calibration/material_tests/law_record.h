@@ -13,17 +13,11 @@
 
 namespace fingertip::calibration::inline material_tests {
 
-/// How a law meets a test; see TestMisfit.
-struct LawTestEntry {
-  std::string name, kind, use;  ///< use: fit or predict
-  std::size_t points = 0;
-  double rms = meshes::unknown, rms_relative = meshes::unknown, largest_relative = meshes::unknown,
-         sum_of_squares = meshes::unknown, within = meshes::unknown;
-  bool in_range = true;
-  StructureEntry structure;
+/// How a law meets a test; stresses stand in law_data.csv.
+struct LawTestEntry : TestMisfit {
+  std::string kind, use;  ///< use: fit or predict
   std::string course = "slow";
-  std::optional<double> rate;
-  double loop_measured = meshes::unknown, loop_computed = meshes::unknown;
+  std::optional<double> rate = {};
   double published = meshes::unknown;  ///< sum of squares that somebody else's fit left [Pa²]
 };
 constexpr auto fields_of(const LawTestEntry*) {

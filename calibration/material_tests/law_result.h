@@ -48,7 +48,7 @@ struct LawFitOptions {
 
 /// How a law meets a test that it was fitted to, or predicts one.
 struct TestMisfit {
-  std::string test;
+  std::string name;  ///< of the test
   std::size_t points = 0;
   double rms = 0.0;               ///< of the residuals [Pa]
   double sum_of_squares = 0.0;    ///< of the residuals [Pa²]

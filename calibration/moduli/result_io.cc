@@ -35,7 +35,7 @@ void write_calibration_json(const ModuliFit& fit, const std::filesystem::path& f
   content.constants = constants_entry(fit.model, fit.constants, fit.target);
   content.damping = {fit.target.retardation_time};
   content.target = rubber_entry(fit.target);
-  content.achieved = achieved_entry(fit.achieved);
+  content.achieved = fit.achieved;
   const Eigen::Vector4d& open = fit.unidentifiable;
   content.unidentifiable = {{open(0), open(1), open(2), open(3), describe_direction(open)}};
   content.residuals = fit.residuals;

@@ -8,6 +8,7 @@
 #include "calibration/material/file_parts.h"
 #include "calibration/material/moduli.h"
 #include "calibration/statistics/curve_residuals.h"
+#include "calibration/statistics/fit_entries.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
 
@@ -25,29 +26,17 @@ std::vector<double> list(const VectorXd& values) {
   return {values.begin(), values.end()};
 }
 
-std::vector<std::vector<double>> rows(const MatrixXd& matrix) {
-  std::vector<std::vector<double>> result;
-  for (Index i = 0; i < matrix.rows(); ++i) result.push_back(list(matrix.row(i).transpose()));
-  return result;
-}
-
 /// What is at its bound: of E it may be Poisson's ratio.
 std::optional<std::string> bound_of(const CurveFit& fit, std::size_t i) {
   if (!fit.at_bound[i]) return std::nullopt;
   return fit.poissons_ratio_bound ? "poissons_ratio" : fit.labels[i];
 }
 
-ParameterEntry parameter_entry(const FitRecord& record, std::size_t i) {
+ParameterEntry described(const FitRecord& record, std::size_t i) {
   const CurveFit& fit = record.fit;
   const FreeParameter& free = record.options.free[i];
-  ParameterEntry entry;
+  ParameterEntry entry = parameter_entry(fit, i);
   entry.name = label(free);
-  entry.unit = unit(free.parameter);
-  entry.estimate = fit.estimates(Index(i));
-  entry.standard_error = fit.standard_errors(Index(i));
-  entry.lower = fit.lower(Index(i));
-  entry.upper = fit.upper(Index(i));
-  entry.at_bound = fit.at_bound[i];
   entry.bound_of = bound_of(fit, i);
   entry.start = free.start;
   if (free.prior) entry.prior = {free.prior->mean, free.prior->deviation};
@@ -91,7 +80,6 @@ RelativeSize relative_size(const VectorXd& residuals, const Curve& curve) {
 
 CurveEntry curve_entry(const FitRecord& record, std::size_t i) {
   const Curve& curve = record.curves[i];
-  const ResidualStructure structure = structure_of(record, i);
   const RelativeSize size = relative_size(own_residuals(record, i), curve);
   CurveEntry entry;
   entry.name = curve.name;
@@ -101,32 +89,15 @@ CurveEntry curve_entry(const FitRecord& record, std::size_t i) {
   entry.points = curve.x.size();
   entry.worst_relative_residual = size.worst;
   entry.rms_relative_residual = size.rms;
-  entry.structure = {structure.runs, structure.probability, structure.statement};
+  entry.structure = structure_of(record, i);
   if (!record.left_out.empty()) {
     const LeftOut& without = record.left_out[i];
     entry.left_out = {list(without.estimates),
                       without.failure.empty() ? without.worst_relative_error : unknown,
                       without.failure};
   }
-  const Course& course = curve.course;
-  if (course.rows > 0)
-    entry.course = {course.rows,   course.noise,     course.rows_per_value, course.loop,
-                    course.play,   course.hold_time, course.relaxation,     course.back_x,
-                    course.back_y, course.held_time, course.held_y};
+  if (curve.course.rows > 0) entry.course = curve.course;
   return entry;
-}
-
-std::vector<RepeatsEntry> repeats_entries(const FitRecord& record) {
-  std::vector<RepeatsEntry> entries;
-  for (const Repeats& each : record.repeats) {
-    RepeatsEntry& entry = entries.emplace_back();
-    for (const std::size_t curve : each.curves) entry.curves.push_back(record.curves[curve].name);
-    entry.factors = each.factors, entry.factor_errors = each.factor_errors;
-    entry.deviation = each.deviation, entry.probability = each.probability;
-    entry.travel = each.travel, entry.mean = each.mean;
-    entry.scatter = each.scatter, entry.noise = each.noise;
-  }
-  return entries;
 }
 
 std::optional<ProfileEntry> profile_entry(const FitRecord& record) {
@@ -167,22 +138,6 @@ std::optional<RigFile> rig_file(const FitRecord& record) {
   return file;
 }
 
-std::vector<AccusationEntry> accusation_entries(const FitRecord& record) {
-  std::vector<AccusationEntry> entries;
-  for (const Accusation& each : record.lack_of_fit)
-    entries.push_back(
-        {each.name, each.of, each.cause, each.unit, each.amount, each.decrease, each.probability});
-  return entries;
-}
-
-std::vector<MinimumEntry> minima(const CurveFit& fit) {
-  std::vector<MinimumEntry> result;
-  for (const Minimum& minimum : fit.minima)
-    result.push_back(
-        {list(minimum.estimates), minimum.loss, minimum.iterations, minimum.converged});
-  return result;
-}
-
 /// The network's are its rubber's, exactly.
 ElasticModuli moduli_of(const Material& material) {
   const meshes::Rubber& rubber = material.rubber;
@@ -202,14 +157,14 @@ void add_material(const FitRecord& record, FitFile& file) {
   file.damping = {material.rubber.retardation_time};
   if (record.target) file.target = rubber_entry(*record.target);
   file.rubber = rubber_entry(material.rubber);
-  file.achieved = achieved_entry(moduli_of(material));
+  file.achieved = moduli_of(material);
   file.forward = record.forward;
 }
 
 void add_statistics(const FitRecord& record, FitFile& file) {
   const CurveFit& fit = record.fit;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-    file.parameters.push_back(parameter_entry(record, i));
+    file.parameters.push_back(described(record, i));
   file.covariance = rows(fit.covariance);
   file.correlation = rows(fit.correlation);
   file.singular_values = list(fit.singular_values);
@@ -223,7 +178,7 @@ void add_statistics(const FitRecord& record, FitFile& file) {
   file.converged = fit.converged;
   file.poissons_ratio_bound = fit.poissons_ratio_bound.value_or(unknown);
   file.residual_deviation = fit.residual_deviation;
-  file.minima = minima(fit);
+  file.minima = minimum_entries(fit);
   file.iterations = fit.iterations;
   file.evaluations = fit.evaluations;
 }
@@ -311,10 +266,10 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
   fit.validity = validity_entry(record.material);
   fit.failed = failed_tests(record);
   fit.rig = rig_file(record);
-  fit.lack_of_fit = accusation_entries(record);
+  fit.lack_of_fit = record.lack_of_fit;
   fit.next = next_entries(record.next, record.fit.labels, record.fit.estimates, record.fit.lower,
                           record.fit.upper);
-  fit.repeats = repeats_entries(record);
+  fit.repeats = record.repeats;
   fit.statement = fit_statement(record);
   meshes::write_json_file(fit, file);
 }

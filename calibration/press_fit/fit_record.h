@@ -15,7 +15,7 @@
 #include "calibration/statistics/design.h"
 #include "calibration/statistics/fit_options.h"
 #include "calibration/statistics/fit_result.h"
-#include "calibration/statistics/suspects.h"
+#include "calibration/statistics/score_tests.h"
 
 namespace fingertip::calibration::inline press_fit {
 
@@ -48,7 +48,7 @@ struct FitRecord {
   std::optional<std::array<double, 2>> observed_times;
   std::vector<RigValue> rig;                     ///< of presses over travel
   std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
-  std::vector<Accusation> lack_of_fit;           ///< gravest first
+  std::vector<ScoreTest> lack_of_fit;            ///< gravest first
   std::vector<Prospect> next;                    ///< further measurements, best first
   std::vector<bool> profiled;    ///< per parameter: its interval is the profile's; or empty
   std::vector<Repeats> repeats;  ///< groups of curves

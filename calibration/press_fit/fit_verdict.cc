@@ -79,7 +79,7 @@ constexpr double least_gain = 0.02, gain_errors = 3.0;
 /// rows there and back over the travel s errs by 2 s noise/sqrt(n).
 void judge_way_back(Sentences& found, const FitRecord& record) {
   for (const Curve& curve : record.curves) {
-    const Course& course = curve.course;
+    const LoadingHistory& course = curve.course;
     if (!(course.loop < -least_gain)) continue;
     const double force = *std::ranges::max_element(curve.y) - curve.y.front(),
                  error = 2.0 * (curve.x.back() - curve.x.front()) * course.noise /

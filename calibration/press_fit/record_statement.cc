@@ -93,7 +93,7 @@ std::string repeats(const FitRecord& record) {
   for (const Repeats& group : record.repeats)
     if (group.deviation > 0.0)
       text += " The " + std::to_string(group.curves.size()) + " repeats of " +
-              record.curves[group.curves.front()].name + " differ by " + percent(group.deviation) +
+              group.curves.front() + " differ by " + percent(group.deviation) +
               " (standard deviation of a factor on the force of each): what is found is that of "
               "their mean, and the intervals follow from so many.";
   return text;
@@ -234,12 +234,12 @@ std::string assumptions(const FitRecord& record) {
 constexpr double by_no_chance = 1e-3;
 
 /// How much of it there would be: an absurd amount shows that it is not the cause.
-std::string amount_of(const Accusation& each) {
+std::string amount_of(const ScoreTest& each) {
   return each.unit == "1" ? percent(each.amount) + " of " + each.share_of
                           : quantity_text(each.amount, each.unit, 3);
 }
 
-/// What freeing the gravest suspects would do, where the fit misses its data.
+/// What freeing the gravest effects would do, where the fit misses its data.
 std::string lack_of_fit(const FitRecord& record) {
   bool missed = record.fit.birge_ratio > 1.0;
   if (!record.fit.chi_square_probability)
@@ -249,7 +249,7 @@ std::string lack_of_fit(const FitRecord& record) {
   const auto all = record.fit.chi_square.value_or(record.fit.degrees_of_freedom);
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(record.lack_of_fit.size(), 3); ++i) {
-    const Accusation& each = record.lack_of_fit[i];
+    const ScoreTest& each = record.lack_of_fit[i];
     if (each.probability > by_no_chance) break;
     const std::string named = each.name + (each.of.empty() ? "" : " (" + each.of + ")");
     text += (i == 0 ? " What is missed looks most like " : "; then ") + named +

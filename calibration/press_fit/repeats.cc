@@ -46,23 +46,23 @@ VectorXd force_of_curve(const std::vector<Curve>& curves, const CurveFit& fit,
 /// change.
 VectorXd fit_factors(Repeats& repeats, const std::vector<Curve>& curves, const CurveFit& fit,
                      const std::vector<std::size_t>& nuisance, const std::vector<VectorXd>& zero) {
-  const Index rows = row_count(curves), count = Index(repeats.curves.size());
+  const Index rows = row_count(curves), count = Index(repeats.places.size());
   VectorXd residuals = VectorXd::Zero(rows);
   Index values = 0;
-  for (const std::size_t curve : repeats.curves) {
+  for (const std::size_t curve : repeats.places) {
     residuals.segment(first_row(curves, curve), fit.residuals[curve].size()) = fit.residuals[curve];
     values += fit.residuals[curve].size();
   }
   MatrixXd columns(rows, count + Index(nuisance.size()));
   for (Index k = 0; k < count; ++k)
     columns.col(k) =
-        fit.whitening * force_of_curve(curves, fit, zero, repeats.curves[std::size_t(k)]);
+        fit.whitening * force_of_curve(curves, fit, zero, repeats.places[std::size_t(k)]);
   Index used = count;
   std::vector<std::size_t> places;
   for (const std::size_t parameter : nuisance) {
     // Only the group's rows: others have theirs.
     VectorXd column = VectorXd::Zero(rows);
-    for (const std::size_t curve : repeats.curves) {
+    for (const std::size_t curve : repeats.places) {
       const Index from = first_row(curves, curve), size = Index(curves[curve].y.size());
       column.segment(from, size) = fit.jacobian.col(Index(parameter)).segment(from, size);
     }
@@ -110,14 +110,14 @@ void find_deviation(Repeats& repeats) {
 void tell_scatter(Repeats& repeats, const std::vector<Curve>& curves,
                   const std::vector<double>& touch, const std::vector<VectorXd>& zero) {
   double end = std::numeric_limits<double>::infinity();
-  for (const std::size_t i : repeats.curves) end = std::min(end, curves[i].x.back() - touch[i]);
+  for (const std::size_t i : repeats.places) end = std::min(end, curves[i].x.back() - touch[i]);
   if (!(end > 0.0)) return;
-  const auto count = double(repeats.curves.size());
+  const auto count = double(repeats.places.size());
   for (std::size_t point = 1; point <= scatter_points; ++point) {
     const double at = end * double(point) / double(scatter_points);
     std::vector<double> forces;
     double noise = 0.0, mean = 0.0, squares = 0.0;
-    for (const std::size_t i : repeats.curves) {
+    for (const std::size_t i : repeats.places) {
       const VectorXd net = values_of(curves[i]) - zero[i];
       const std::vector<double> force(net.begin(), net.end());
       forces.push_back(meshes::interpolated(curves[i].x, force, at + touch[i]));
@@ -136,13 +136,14 @@ void tell_scatter(Repeats& repeats, const std::vector<Curve>& curves,
 
 Repeats repeats_of(const std::vector<std::size_t>& group, const std::vector<Curve>& curves,
                    const CurveFit& fit, const std::vector<std::size_t>& nuisance,
-                   const std::vector<RigQuantity>& touch, const std::vector<VectorXd>& zero) {
+                   const std::vector<FitQuantity>& touch, const std::vector<VectorXd>& zero) {
   Repeats repeats;
-  repeats.curves = group;
+  repeats.places = group;
+  for (const std::size_t i : group) repeats.curves.push_back(curves[i].name);
   const VectorXd own = fit.estimates + fit_factors(repeats, curves, fit, nuisance, zero);
   find_deviation(repeats);
   std::vector<double> touches;
-  for (const RigQuantity& each : touch) touches.push_back(each.in(own));
+  for (const FitQuantity& each : touch) touches.push_back(each.in(own));
   tell_scatter(repeats, curves, touches, zero);
   return repeats;
 }
@@ -151,7 +152,7 @@ CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
                const std::vector<Curve>& curves, const std::vector<VectorXd>& zero) {
   CurveFit result = fit;
   Index count = 0;
-  for (const Repeats& group : repeats) count += Index(group.curves.size());
+  for (const Repeats& group : repeats) count += Index(group.places.size());
   const Index rows = fit.jacobian.rows(), parameters = fit.jacobian.cols();
   // A common factor is the modulus' own.
   const int freedom = fit.degrees_of_freedom - int(count) + int(repeats.size());
@@ -162,7 +163,7 @@ CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
     residuals.segment(first_row(curves, i), fit.residuals[i].size()) = fit.residuals[i];
   Index column = parameters;
   for (const Repeats& group : repeats)
-    for (const std::size_t curve : group.curves)
+    for (const std::size_t curve : group.places)
       result.jacobian.col(column++) = fit.whitening * force_of_curve(curves, fit, zero, curve);
   // Columns differ in their units.
   const VectorXd sizes = result.jacobian.colwise().norm().cwiseMax(1e-300).transpose();
@@ -185,7 +186,7 @@ MatrixXd covariance_of(const std::vector<Repeats>& repeats, const std::vector<Cu
   const Index rows = row_count(curves);
   MatrixXd covariance = MatrixXd::Zero(rows, rows);
   for (const Repeats& group : repeats)
-    for (const std::size_t curve : group.curves) {
+    for (const std::size_t curve : group.places) {
       const VectorXd force = group.deviation * force_of_curve(curves, fit, zero, curve);
       covariance += force * force.transpose();
     }

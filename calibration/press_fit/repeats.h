@@ -11,32 +11,16 @@
 
 namespace fingertip::calibration::inline press_fit {
 
-/// Repeats of one press, two or more; an entry per repeat where nothing else is said. SI.
-struct Repeats {
-  std::vector<std::size_t> curves;  ///< of the fit
-  /// Force of the repeat over that of the fit, its touch, zero and drift fitted for itself, and the
-  /// standard error that the residuals yield.
-  std::vector<double> factors, factor_errors;
-  /// Standard deviation of the factors between repeats beyond their errors, by the method of
-  /// moments (DerSimonian & Laird, Controlled Clinical Trials 7, 177, 1986). 0: none is seen.
-  double deviation = 0.0;
-  /// That factors that are the same scatter as much (Cochran's Q is chi-square of n - 1).
-  double probability = 1.0;
-  /// At equal steps of the travel since touch that all have [m]: mean force, standard deviation
-  /// between repeats, and that which the noise of their rows explains, NaN where unknown [N].
-  std::vector<double> travel, mean, scatter, noise;
-};
-
 /// From a fit without their scatter. `curves` have travels or indentations; `nuisance` are the
 /// parameters of `fit` that a repeat has for itself, or shares with some (touch, zero, drift,
 /// compliance); `touch` [m] and `zero` (force without load at every value [N]) are an entry per
 /// curve of the fit.
 Repeats repeats_of(const std::vector<std::size_t>& group, const std::vector<Curve>& curves,
                    const CurveFit& fit, const std::vector<std::size_t>& nuisance,
-                   const std::vector<RigQuantity>& touch, const std::vector<Eigen::VectorXd>& zero);
+                   const std::vector<FitQuantity>& touch, const std::vector<Eigen::VectorXd>& zero);
 
 /// The fit as if every repeat had a factor of its own on its force, to first order: residuals
-/// without it, and columns for it behind those of the parameters, which only `accusations` knows to
+/// without it, and columns for it behind those of the parameters, which only `score_tests` knows to
 /// take. What is left is what the model misses. With chi-square the scatter is in the whitening,
 /// and the fit is returned as it is.
 CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,

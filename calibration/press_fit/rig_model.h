@@ -11,15 +11,13 @@
 
 namespace fingertip::calibration::inline press_fit {
 
-using RigQuantity = FitQuantity;
-
 /// A crosshead at x, at the time t, presses by delta and its load cell tells
 ///   f = F0 + F1 t + F(delta),   x = x0 + delta + c F(delta),   F = 0 for x < x0.
 struct Rig {
-  RigQuantity touch_offset;  ///< x0 [m]
-  RigQuantity compliance;    ///< c of frame, load cell and grips in series with the press [m/N]
-  RigQuantity force_offset;  ///< F0 [N]
-  RigQuantity drift;         ///< F1 [N/s]
+  FitQuantity touch_offset;  ///< x0 [m]
+  FitQuantity compliance;    ///< c of frame, load cell and grips in series with the press [m/N]
+  FitQuantity force_offset;  ///< F0 [N]
+  FitQuantity drift;         ///< F1 [N/s]
 };
 
 /// Its quantities in the order of rig_parameters.

@@ -58,11 +58,11 @@ ResidualStructure residual_structure(const Eigen::VectorXd& residuals) {
   if (points >= 2 && found.runs == 1) found.probability = std::ldexp(1.0, 1 - points);
   if (found.runs > 1) {
     found.probability = 0.0;
-    for (int runs = 2; runs <= found.runs; ++runs)
+    for (int runs = 2; runs <= int(found.runs); ++runs)
       found.probability += probability_of(runs, positive, negative);
     found.probability = std::min(found.probability, 1.0);
   }
-  found.statement = statement_of(found.runs, points, found.probability);
+  found.statement = statement_of(int(found.runs), points, found.probability);
   return found;
 }
 

@@ -258,7 +258,7 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
   check_signs();
   check_direction();
   problems_.throw_if_any();
-  calibration::Course course;
+  calibration::LoadingHistory course;
   course.rows = rows_.size();
   const double begin = rows_.front().time;
   const bool in_time = wants_time_ && time_;

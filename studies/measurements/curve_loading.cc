@@ -96,7 +96,7 @@ constexpr std::size_t most_shown = 100;
 /// Force over the time since the machine has arrived, thinned to what a figure shows: evenly in the
 /// logarithm of time, in which a force falls evenly.
 void keep_hold(const std::vector<CurveRow>& rows, std::size_t arrival, std::size_t end,
-               calibration::Course& course) {
+               calibration::LoadingHistory& course) {
   course.held_time.clear(), course.held_y.clear();
   const double span = rows[end - 1].time - rows[arrival].time;
   double next = 0.0;
@@ -110,7 +110,7 @@ void keep_hold(const std::vector<CurveRow>& rows, std::size_t arrival, std::size
 }
 
 void tell_hold(const std::vector<CurveRow>& rows, const Hold& hold, Holds use,
-               calibration::Course& course, std::vector<std::string>& notes) {
+               calibration::LoadingHistory& course, std::vector<std::string>& notes) {
   const std::size_t begin = arrival(rows, hold), count = hold.end - hold.first;
   const double start = force_on_arrival(rows, begin) - rows.front().y,
                end = mean_force(rows, hold.end - 1, std::max<std::size_t>(1, count / 10)) -
@@ -133,7 +133,7 @@ void tell_hold(const std::vector<CurveRow>& rows, const Hold& hold, Holds use,
   notes.push_back(text);
 }
 
-std::string loop_words(const calibration::Course& course) {
+std::string loop_words(const calibration::LoadingHistory& course) {
   const double share = 100.0 * course.loop;
   if (share >= 0.0) return fmt::format("the loop takes {:.2g} % of the work of the loading", share);
   return fmt::format(
@@ -144,7 +144,7 @@ std::string loop_words(const calibration::Course& course) {
 
 /// The unloading, thinned to what a figure shows.
 void keep_way_back(const std::vector<CurveRow>& rows, std::size_t first,
-                   calibration::Course& course) {
+                   calibration::LoadingHistory& course) {
   const std::size_t step = std::max<std::size_t>(1, (rows.size() - first) / most_shown);
   for (std::size_t i = first; i < rows.size(); i += step) {
     course.back_x.push_back(rows[i].x);
@@ -154,7 +154,7 @@ void keep_way_back(const std::vector<CurveRow>& rows, std::size_t first,
 
 }  // namespace
 
-std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::Course& course,
+std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::LoadingHistory& course,
                               std::vector<std::string>& notes, Holds use) {
   if (rows.empty()) return rows;
   // The first row that deep: the noise of a hold must not choose the turn.

@@ -38,7 +38,7 @@ inline constexpr std::size_t most_rows = 200;
 /// With `holds` kept, which asks for times, they stay where they are, also the one at the largest
 /// x.
 enum class Holds { left_out, kept };
-std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::Course& course,
+std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::LoadingHistory& course,
                               std::vector<std::string>& notes, Holds holds = Holds::left_out);
 
 /// Standard deviation of a single y: root mean square of third differences of successive rows over

@@ -182,7 +182,7 @@ ordered_json curve_inputs(const FitInput& input, std::size_t i) {
     inputs["time"] = curve.time;
     inputs["machine"] = curve.travel->machine;
     for (const auto member : calibration::rig_members) {
-      const calibration::RigQuantity& each = curve.travel->rig.*member;
+      const calibration::FitQuantity& each = curve.travel->rig.*member;
       inputs["rig"].push_back(each.place ? ordered_json{{"free", *each.place}}
                                          : ordered_json(each.value));
     }

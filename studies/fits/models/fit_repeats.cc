@@ -69,9 +69,9 @@ std::vector<calibration::Repeats> repeats_in(const FitInput& input,
   std::vector<std::size_t> nuisance;
   for (std::size_t k = 0; k < input.options.free.size(); ++k)
     if (calibration::is_of_the_rig(input.options.free[k].parameter)) nuisance.push_back(k);
-  std::vector<calibration::RigQuantity> touch;
+  std::vector<calibration::FitQuantity> touch;
   for (const FitCurve& curve : input.curves)
-    touch.push_back(curve.travel ? curve.travel->rig.touch_offset : calibration::RigQuantity());
+    touch.push_back(curve.travel ? curve.travel->rig.touch_offset : calibration::FitQuantity());
   std::vector<calibration::Repeats> found;
   for (const auto& curves : alike(input))
     if (curves.size() > 1)

@@ -13,9 +13,9 @@
 namespace fingertip::studies::inline fits::inline models {
 
 using calibration::Curve;
+using calibration::FitQuantity;
 using calibration::FreeParameter;
 using calibration::MaterialParameter;
-using calibration::RigQuantity;
 using meshes::InvalidInput;
 
 namespace {
@@ -47,7 +47,7 @@ bool same(const RigSetting& a, const RigSetting& b) {
 }
 
 /// Appends one and says where.
-RigQuantity append(FitInput& input, FreeParameter free) {
+FitQuantity append(FitInput& input, FreeParameter free) {
   input.options.free.push_back(std::move(free));
   return {0.0, Eigen::Index(input.options.free.size() - 1)};
 }
@@ -75,7 +75,7 @@ void share_compliances(std::vector<FitCurve>& curves) {
 void free_rigs(FitInput& input) {
   share_compliances(input.curves);
   using enum MaterialParameter;
-  std::map<std::string, RigQuantity> compliances;
+  std::map<std::string, FitQuantity> compliances;
   for (const FitCurve& curve : input.curves) compliances[curve.travel->machine];
   const std::size_t machines = compliances.size();
   compliances.clear();
@@ -123,7 +123,7 @@ std::size_t material_parameters(const FitInput& input) {
 
 std::vector<calibration::RigValue> rig_values(const FitInput& input) {
   std::vector<calibration::RigValue> values;
-  const auto add = [&](MaterialParameter parameter, const std::string& of, const RigQuantity& own,
+  const auto add = [&](MaterialParameter parameter, const std::string& of, const FitQuantity& own,
                        bool given) {
     values.push_back({parameter, of, own.value, {}, given});
     if (own.place) values.back().place = std::size_t(*own.place);

@@ -9,15 +9,15 @@
 
 namespace fingertip::studies::inline fits::inline models {
 
-using calibration::Accusation;
 using calibration::Curve;
 using calibration::CurveFit;
 using calibration::FreeParameter;
 using calibration::MaterialParameter;
+using calibration::OmittedEffect;
 using calibration::Rig;
 using calibration::rig_members;
 using calibration::rig_parameters;
-using calibration::Suspect;
+using calibration::ScoreTest;
 using Eigen::Index;
 using Eigen::VectorXd;
 
@@ -39,7 +39,7 @@ const char* cause_of(MaterialParameter parameter) {
 }
 
 /// What is freed, for people.
-Suspect suspect_of(const Freed& freed) {
+OmittedEffect effect_of(const Freed& freed) {
   if (freed.kind == Freed::rubber)
     return {"another rubber",
             freed.of,
@@ -155,16 +155,16 @@ Trials::Trials(const FitInput& input, const calibration::CurveFit& fit,
   before_ = fitted({});
 }
 
-Accusation Trials::of(const Freed& freed) {
+ScoreTest Trials::of(const Freed& freed) {
   const CurveFit after = fitted({freed});
-  Accusation found = calibration::accusation(before_, after, suspect_of(freed));
+  ScoreTest found = calibration::score_test(before_, after, effect_of(freed));
   if (freed.stiffens) found.amount *= -1.5 / parameter_of(freed).scale;
   if (freed.kind == Freed::rubber) found.amount = after.estimates(scales_) / after.estimates(0);
   return found;
 }
 
 double Trials::left(const std::vector<Freed>& freed) {
-  return before() - calibration::accusation(before_, fitted(freed), {}).decrease;
+  return before() - calibration::score_test(before_, fitted(freed), {}).decrease;
 }
 
 double Trials::before() const {

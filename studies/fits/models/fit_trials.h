@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/statistics/suspects.h"
+#include "calibration/statistics/score_tests.h"
 #include "studies/fits/models/fit_models.h"
 
 namespace fingertip::studies::inline fits::inline models {
@@ -38,7 +38,7 @@ class Trials {
   /// Throws as fits do. A stiffening is told by what c < 0 adds to the deepest force, -c dF/dx of
   /// it with 3/2 of the force over the travel as the slope; another rubber by its modulus over the
   /// others'.
-  calibration::Accusation of(const Freed& freed);
+  calibration::ScoreTest of(const Freed& freed);
 
   /// Chi-square, or squares over their variance, that is left with all of these freed.
   double left(const std::vector<Freed>& freed);

@@ -21,7 +21,7 @@
 #include "studies/fits/models/fit_relaxation.h"
 #include "studies/fits/models/fit_repeats.h"
 #include "studies/fits/models/fit_rig.h"
-#include "studies/fits/models/fit_suspects.h"
+#include "studies/fits/models/omitted_effects.h"
 #include "studies/fits/runs/fit_material.h"
 #include "studies/jobs/json_file.h"
 #include "studies/presses/press_record.h"
@@ -161,7 +161,7 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   stage = "profile";
   if (!input.profile.empty()) add_profile(input, list, record);
   stage = "lack of fit";
-  record.lack_of_fit = accusations_of(input, own, record.options, models, scatter(record.repeats));
+  record.lack_of_fit = score_tests_of(input, own, record.options, models, scatter(record.repeats));
   if (record.fit.converged && !input.candidates.empty())
     record.next =
         outlook(input, models, record.fit.estimates, record.fit.residual_deviation, folder, context,

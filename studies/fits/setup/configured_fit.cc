@@ -9,7 +9,7 @@
 #include "studies/config/finger_defaults.h"
 #include "studies/fits/models/continuum_model.h"
 #include "studies/fits/models/fit_relaxation.h"
-#include "studies/fits/models/fit_suspects.h"
+#include "studies/fits/models/omitted_effects.h"
 #include "studies/fits/setup/fit_curves.h"
 #include "studies/fits/setup/fit_parameters.h"
 #include "studies/fits/setup/fit_plan.h"

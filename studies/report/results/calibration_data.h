@@ -50,7 +50,7 @@ struct FitCurve {
   std::vector<double> x, measured, sigma, fitted, left_out;
   std::vector<double> total_sigma, whitened;  ///< those of chi-square; NaN in files without them
 
-  std::optional<calibration::CourseEntry> course;  ///< what the file tells besides
+  std::optional<calibration::LoadingHistory> course;  ///< what the file tells besides
 
   /// Some point has its sigma.
   bool has_sigma() const;

@@ -82,7 +82,7 @@ Answer answer(const Experiment& experiment) {
   Answer result;
   result.alone = fit_curves(experiment.curves, models, options);
   result.repeats = repeats_of(group, experiment.curves, result.alone, {},
-                              std::vector<RigQuantity>(group.size()), zero);
+                              std::vector<FitQuantity>(group.size()), zero);
   options.model_covariance = covariance_of({result.repeats}, experiment.curves, result.alone, zero);
   result.together = fit_curves(experiment.curves, models, options);
   return result;

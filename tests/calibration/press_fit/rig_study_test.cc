@@ -12,7 +12,7 @@
 #include "calibration/press_fit/rig_model.h"
 #include "calibration/statistics/curve_checks.h"
 #include "calibration/statistics/curve_fit.h"
-#include "calibration/statistics/suspects.h"
+#include "calibration/statistics/score_tests.h"
 
 using namespace fingertip::calibration;
 using Eigen::Index;
@@ -180,7 +180,7 @@ TEST(RigStudy, ARigHeldAtZeroIsExplainedByTouchAndCompliance) {
       RigModel model(*study.layers[0], depths_for_rig(1.3 * deepest), 1, rig, study.curves[0].x, {},
                      3);
       const CurveFit after = fit_curves(study.curves, {&model}, options);
-      const Accusation both = accusation(fit, after, {});
+      const ScoreTest both = score_test(fit, after, {});
       EXPECT_NEAR(both.decrease, *fit.chi_square - *after.chi_square, 1e-9 * *fit.chi_square);
       EXPECT_EQ(both.amount, after.estimates(2));
       return *after.chi_square_probability;

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "calibration/statistics/fit_options.h"
-#include "calibration/statistics/suspects.h"
+#include "calibration/statistics/score_tests.h"
 #include "meshes/base/errors.h"
 
 using namespace fingertip;

@@ -13,10 +13,10 @@
 namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
-using calibration::AccusationEntry;
-using calibration::CourseEntry;
-using calibration::RepeatsEntry;
+using calibration::LoadingHistory;
+using calibration::Repeats;
 using calibration::RigEntry;
+using calibration::ScoreTest;
 
 /// With its sign where it is negative: a force that rises in a hold.
 std::string share_words(double share) {
@@ -24,7 +24,7 @@ std::string share_words(double share) {
 }
 
 /// A way back above the loading is the machine's.
-Cell loop_cell(const CourseEntry& course) {
+Cell loop_cell(const LoadingHistory& course) {
   return plain(share_words(course.loop),
                course.play > 0.0 ? "play or lag, " + amount(course.play, "m") : "");
 }
@@ -45,7 +45,7 @@ Table file_table(const Fit& fit) {
   table.header = {plain("File"),   plain("Rows"), plain("Points", "fitted"), plain("Noise"),
                   plain("Misfit"), plain("Loop"), plain("Relaxation")};
   for (const FitCurve& curve : fit.curves) {
-    const CourseEntry course = curve.course.value_or(CourseEntry());
+    const LoadingHistory course = curve.course.value_or(LoadingHistory());
     const std::string unit = curve.y_quantity.si_unit;
     const double misfit = misfit_of(curve), noise = course.noise_of_value(), ratio = misfit / noise;
     const auto shown = [&](double value) {
@@ -65,7 +65,7 @@ Table file_table(const Fit& fit) {
 
 Table repeat_table(const Fit& fit) {
   Table table;
-  for (const RepeatsEntry& group : fit.file.repeats)
+  for (const Repeats& group : fit.file.repeats)
     for (std::size_t i = 0; i < std::min(group.curves.size(), group.factors.size()); ++i) {
       const double error =
           i < group.factor_errors.size() ? group.factor_errors[i] : meshes::unknown;
@@ -82,7 +82,7 @@ std::vector<double> in_unit(std::vector<double> values, double factor) {
   return values;
 }
 
-Figure scatter_figure(const RepeatsEntry& group, const std::string& name) {
+Figure scatter_figure(const Repeats& group, const std::string& name) {
   Figure figure{name, 860, 480, 1, {}};
   const std::size_t points = group.travel.size();
   if (points == 0 || group.mean.size() != points || group.scatter.size() != points) return figure;
@@ -147,7 +147,7 @@ Figure hold_figure(const Fit& fit, const std::string& name) {
 }
 
 /// Largest |factor - 1|.
-double widest(const RepeatsEntry& group) {
+double widest(const Repeats& group) {
   double most = 0.0;
   for (const double factor : group.factors) most = std::fmax(most, std::abs(factor - 1.0));
   return most;
@@ -161,7 +161,7 @@ Chapter measured_chapter(const Fit& fit, const std::string& prefix) {
   chapter.tables["files"] = file_table(fit);
   chapter.tables["repeats"] = repeat_table(fit);
   WordList groups;
-  for (const RepeatsEntry& group : fit.file.repeats) {
+  for (const Repeats& group : fit.file.repeats) {
     Words& words = groups.emplace_back();
     const std::string name = fmt::format("{}_repeats{}", prefix, groups.size());
     words["curves"] = enumerate(group.curves);
@@ -222,7 +222,7 @@ Table suspect_table(const Fit& fit) {
   table.header = {plain("Suspect"), plain("Chi-square", "would fall by"), plain("Probability"),
                   plain("It would be"), plain("Usual cause and remedy")};
   table.header.back().words = true;
-  for (const AccusationEntry& each : fit.file.lack_of_fit) {
+  for (const ScoreTest& each : fit.file.lack_of_fit) {
     Cell cause = plain(each.cause);
     cause.words = true;
     const std::string unit = each.unit == "1" ? "" : each.unit;
@@ -274,7 +274,7 @@ Chapter rig_chapter(const Fit& fit, const std::string& prefix) {
   chapter["soft"] = fit.file.rig.has_value();
   chapter["assumed"] = fit.file.rig && std::ranges::any_of(fit.file.rig->compliance, is_assumed);
   chapter["accused"] = std::ranges::any_of(
-      suspects, [](const AccusationEntry& each) { return each.probability < improbable; });
+      suspects, [](const ScoreTest& each) { return each.probability < improbable; });
   chapter.tables["rig"] = rig_table(fit);
   chapter.tables["suspects"] = suspect_table(fit);
   chapter.tables["next"] = next_table(fit);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "calibration/statistics/suspects.h"
+#include "calibration/statistics/score_tests.h"
 #include "studies/fits/models/fit_models.h"
 
 namespace fingertip::studies::inline fits::inline models {
@@ -20,9 +20,9 @@ std::vector<std::vector<double>> excess_of_finite_strain(const FitInput& input);
 /// strain and the other contact, pressed on coarse lattices. Where none alone makes the misfit one
 /// of chance, the two kinds of a rig's quantities come first that together explain most: a late
 /// touch and a soft frame look like a zero of the force.
-std::vector<calibration::Accusation> accusations_of(const FitInput& input,
-                                                    const calibration::CurveFit& fit,
-                                                    const calibration::CurveFitOptions& options,
-                                                    const FitModels& models, bool scatter);
+std::vector<calibration::ScoreTest> score_tests_of(const FitInput& input,
+                                                   const calibration::CurveFit& fit,
+                                                   const calibration::CurveFitOptions& options,
+                                                   const FitModels& models, bool scatter);
 
 }  // namespace fingertip::studies::inline fits::inline models

@@ -1,4 +1,4 @@
-#include "calibration/statistics/suspects.h"
+#include "calibration/statistics/score_tests.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -42,10 +42,15 @@ double probability_of(double decrease, const CurveFit& fit) {
       complement(boost::math::fisher_f(1.0, freedom), std::max(0.0, decrease * freedom / rest)));
 }
 
+ScoreTest result(const OmittedEffect& of, double amount, double decrease, const CurveFit& fit) {
+  return {of.name,    of.of, of.cause, of.unit, amount, decrease, probability_of(decrease, fit),
+          of.share_of};
+}
+
 }  // namespace
 
-std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& options,
-                                    const std::vector<Suspect>& suspects) {
+std::vector<ScoreTest> score_tests(const CurveFit& fit, const CurveFitOptions& options,
+                                   const std::vector<OmittedEffect>& effects) {
   const Index values = fit.jacobian.rows(), count = fit.jacobian.cols();
   const Index priors = std::ranges::count_if(
       options.free, [](const FreeParameter& free) { return bool(free.prior); });
@@ -64,30 +69,29 @@ std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& 
       residuals(row) = (prior->mean - fit.estimates(j)) / prior->deviation;
       jacobian(row++, j) = 1.0 / prior->deviation;
     }
-  std::vector<Accusation> found;
-  for (const Suspect& suspect : suspects) {
-    if (suspect.change.size() != values)
+  std::vector<ScoreTest> found;
+  for (const OmittedEffect& effect : effects) {
+    if (effect.change.size() != values)
       throw meshes::InvalidInput(
-          {"suspects." + suspect.name, std::to_string(suspect.change.size()) + " values",
+          {"effects." + effect.name, std::to_string(effect.change.size()) + " values",
            "a change has a number per value of all curves", "give one for these curves"});
     VectorXd change = VectorXd::Zero(values + priors);
-    change.head(values) = fit.whitening * suspect.change;
+    change.head(values) = fit.whitening * effect.change;
     const double size = change.norm();
     change = without_columns(change, jacobian);
     if (!(change.norm() > imitated * size)) continue;
     const double shared = change.dot(residuals), square = change.squaredNorm();
-    const double amount = std::clamp(shared / square, suspect.least, suspect.most);
+    const double amount = std::clamp(shared / square, effect.least, effect.most);
     const double decrease = std::max(0.0, amount * (2.0 * shared - amount * square));
-    found.push_back({suspect.name, suspect.of, suspect.cause, suspect.unit, amount, decrease,
-                     probability_of(decrease, fit), suspect.share_of});
+    found.push_back(result(effect, amount, decrease, fit));
   }
-  std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);
+  std::ranges::stable_sort(found, std::greater<>(), &ScoreTest::decrease);
   return found;
 }
 
-Accusation accusation(const CurveFit& before, const CurveFit& after, const Suspect& what) {
+ScoreTest score_test(const CurveFit& before, const CurveFit& after, const OmittedEffect& what) {
   if (before.chi_square.has_value() != after.chi_square.has_value())
-    throw meshes::InvalidInput({"suspects." + what.name, "sigma of one fit alone",
+    throw meshes::InvalidInput({"effects." + what.name, "sigma of one fit alone",
                                 "chi-square is compared with chi-square",
                                 "do both fits with the same curves and loss"});
   const auto squares = [](const CurveFit& fit) {
@@ -99,19 +103,12 @@ Accusation accusation(const CurveFit& before, const CurveFit& after, const Suspe
   const double decrease =
       std::max(0.0, before.chi_square ? *before.chi_square - *after.chi_square
                                       : (squares(before) - squares(after)) / variance);
-  return {what.name,
-          what.of,
-          what.cause,
-          what.unit,
-          after.estimates(after.estimates.size() - 1),
-          decrease,
-          probability_of(decrease, before),
-          what.share_of};
+  return result(what, after.estimates(after.estimates.size() - 1), decrease, before);
 }
 
 VectorXd fading(const VectorXd& forces, const std::vector<double>& times, double constant) {
   if (forces.size() != Index(times.size()))
-    throw meshes::InvalidInput({"suspects.times", std::to_string(times.size()) + " values",
+    throw meshes::InvalidInput({"effects.times", std::to_string(times.size()) + " values",
                                 "every force has its time", "give one for each"});
   VectorXd change(forces.size());
   double alive = forces.size() > 0 ? forces(0) : 0.0;  // of the branch, over its weight
@@ -126,7 +123,7 @@ VectorXd fading(const VectorXd& forces, const std::vector<double>& times, double
   return change;
 }
 
-double fading_of(const Course& course, const VectorXd& forces, const std::vector<double>& x,
+double fading_of(const LoadingHistory& course, const VectorXd& forces, const std::vector<double>& x,
                  const std::vector<double>& times, double constant) {
   const Index count = forces.size();
   double weight = 0.0;

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "calibration/statistics/curve.h"
+#include "calibration/files/fit_file.h"
 #include "calibration/statistics/fit_options.h"
 #include "calibration/statistics/fit_result.h"
 
 namespace fingertip::calibration::inline statistics {
 
 /// Something that the model of a fit leaves out, by one number that is 0 there.
-struct Suspect {
+struct OmittedEffect {
   std::string name;        ///< "compliance"
   std::string of;          ///< the file or machine; empty: the one, or all of them
   std::string cause;       ///< what usually makes it, for people
@@ -26,30 +26,21 @@ struct Suspect {
   std::string share_of = {};  ///< what a number of unit "1" is a share of, "the force at once"
 };
 
-/// What freeing that number beside the fit's own parameters would do, to first order.
-struct Accusation {
-  std::string name, of, cause, unit;
-  double amount = 0.0;        ///< the number then, in `unit`
-  double decrease = 0.0;      ///< of chi-square; without sigma of squares over their variance
-  double probability = 1.0;   ///< of at least that decrease if the number were 0
-  std::string share_of = {};  ///< as in Suspect
-};
-
-/// Rao's score test of every suspect, the largest decrease first: with whitened residuals r and
+/// Rao's score test of every effect, the largest decrease first: with whitened residuals r and
 /// changes v, both without what the fit's parameters can do (J and the priors' rows),
-///   amount a = v.r/v.v within the suspect's bounds,   decrease = 2 a v.r - a² v.v,
+///   amount a = v.r/v.v within the effect's bounds,   decrease = 2 a v.r - a² v.v,
 /// chi-square of one degree of freedom where sigma is given; else F of 1 and dof - 1 from
-/// decrease/((dof - decrease)/(dof - 1)). Suspects whose change the parameters imitate (less than
-/// 1e-6 of v is left) accuse nobody and are left out. Large amounts are beyond first order: the
-/// order still tells, the amounts do not. Throws InvalidInput for changes of another length.
-std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& options,
-                                    const std::vector<Suspect>& suspects);
+/// decrease/((dof - decrease)/(dof - 1)). Effects whose change the parameters imitate (less than 1e-6
+/// of v is left) are left out. Large amounts are beyond first order: the order still tells, the
+/// amounts do not. Throws InvalidInput for changes of another length.
+std::vector<ScoreTest> score_tests(const CurveFit& fit, const CurveFitOptions& options,
+                                   const std::vector<OmittedEffect>& effects);
 
 /// The same of a fit that was done again with the number free, `after`, whose last parameter it is:
 /// what chi-square, or without sigma the squares over the variance of `before`, has lost indeed.
 /// Where a model is far from its data, as with a touch at the wrong place, first order misleads.
 /// `what` needs no change. Throws InvalidInput for fits of which only one knows sigma.
-Accusation accusation(const CurveFit& before, const CurveFit& after, const Suspect& what);
+ScoreTest score_test(const CurveFit& before, const CurveFit& after, const OmittedEffect& what);
 
 /// Derivative of a loading's forces by the weight of one branch that fades with `constant` [s],
 /// where the forces without it are `forces` at `times` (increasing) [s], in proportion to the
@@ -62,8 +53,8 @@ Eigen::VectorXd fading(const Eigen::VectorXd& forces, const std::vector<double>&
 /// The weight of that branch that would make the loop or the fall in a hold which the curve's
 /// course tells, whichever needs more; 0 where it tells neither. The way back is taken as quick as
 /// the loading.
-double fading_of(const Course& course, const Eigen::VectorXd& forces, const std::vector<double>& x,
-                 const std::vector<double>& times, double constant);
+double fading_of(const LoadingHistory& course, const Eigen::VectorXd& forces,
+                 const std::vector<double>& x, const std::vector<double>& times, double constant);
 
 /// Standard errors of the parameters after further values, over those of `covariance`: 1 where
 /// they tell nothing. `rows` are the values' derivatives by the parameters over the values'

@@ -1,6 +1,6 @@
 /// What a fit has missed and what would narrow it, against refits and against solved normal
 /// equations.
-#include "calibration/statistics/suspects.h"
+#include "calibration/statistics/score_tests.h"
 
 #include <gtest/gtest.h>
 
@@ -77,17 +77,17 @@ CurveFit fit_of(const Curve& curve, int parameters, const std::vector<int>& plac
   return fit_curves({curve}, {&model}, options(parameters));
 }
 
-std::vector<Suspect> both() {
+std::vector<OmittedEffect> both() {
   return {{"square", "", "", "1", columns().col(2)}, {"wave", "", "", "1", columns().col(3)}};
 }
 
 TEST(Suspects, TellWhatARefitWithTheirNumberFreeFinds) {
   const Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.3, 0.02)), true);
   const CurveFit without = fit_of(curve, 2, {0, 1});
-  const auto found = accusations(without, options(2), both());
+  const auto found = score_tests(without, options(2), both());
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].name, "square");
-  for (const Accusation& each : found) {
+  for (const ScoreTest& each : found) {
     const CurveFit freed = fit_of(curve, 3, {0, 1, each.name == "square" ? 2 : 3});
     EXPECT_NEAR(each.decrease, *without.chi_square - *freed.chi_square, 1e-6 * each.decrease);
     EXPECT_NEAR(each.amount, freed.estimates(2), 1e-7);
@@ -99,11 +99,11 @@ TEST(Suspects, TellWhatARefitWithTheirNumberFreeFinds) {
 TEST(Suspects, StayWithinTheirBounds) {
   Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.3, 0.0)), true);
   const CurveFit without = fit_of(curve, 2, {0, 1});
-  Suspect square = both()[0];
+  OmittedEffect square = both()[0];
   ASSERT_EQ(square.name, "square");
   square.least = 0.0;
   square.most = 0.1;
-  const auto found = accusations(without, options(2), {square});
+  const auto found = score_tests(without, options(2), {square});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].amount, 0.1);
   for (std::size_t i = 0; i < curve.y.size(); ++i) curve.y[i] -= 0.1 * square.change(Index(i));
@@ -111,7 +111,7 @@ TEST(Suspects, StayWithinTheirBounds) {
   EXPECT_NEAR(found[0].decrease, *without.chi_square - *less.chi_square,
               1e-6 * *without.chi_square);
   square.change = -square.change;
-  const auto none = accusations(without, options(2), {square});
+  const auto none = score_tests(without, options(2), {square});
   EXPECT_EQ(none[0].amount, 0.0);
   EXPECT_EQ(none[0].decrease, 0.0);
   EXPECT_EQ(none[0].probability, 1.0);
@@ -119,7 +119,7 @@ TEST(Suspects, StayWithinTheirBounds) {
 
 TEST(Suspects, WithoutSigmaAreJudgedByTheResidualVariance) {
   const Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.3, 0.02)), false);
-  const auto found = accusations(fit_of(curve, 2, {0, 1}), options(2), both());
+  const auto found = score_tests(fit_of(curve, 2, {0, 1}), options(2), both());
   const CurveFit without = fit_of(curve, 2, {0, 1}), freed = fit_of(curve, 3, {0, 1, 2});
   const double squares = without.residuals[0].squaredNorm(),
                left = freed.residuals[0].squaredNorm();
@@ -131,7 +131,7 @@ TEST(Suspects, WithoutSigmaAreJudgedByTheResidualVariance) {
 
 TEST(Suspects, AccuseNobodyOfNoise) {
   const Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.0, 0.0)), true);
-  for (const Accusation& each : accusations(fit_of(curve, 2, {0, 1}), options(2), both()))
+  for (const ScoreTest& each : score_tests(fit_of(curve, 2, {0, 1}), options(2), both()))
     EXPECT_GT(each.probability, 0.01) << each.name;
 }
 
@@ -139,8 +139,8 @@ TEST(Suspects, WhatTheParametersImitateIsLeftOut) {
   const Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.3, 0.0)), true);
   const VectorXd sum = 3.0 * columns().col(0) - columns().col(1);
   EXPECT_TRUE(
-      accusations(fit_of(curve, 2, {0, 1}), options(2), {{"sum", "", "", "1", sum}}).empty());
-  EXPECT_THROW(accusations(fit_of(curve, 2, {0, 1}), options(2),
+      score_tests(fit_of(curve, 2, {0, 1}), options(2), {{"sum", "", "", "1", sum}}).empty());
+  EXPECT_THROW(score_tests(fit_of(curve, 2, {0, 1}), options(2),
                            {{"short", "", "", "1", VectorXd::Ones(3)}}),
                meshes::InvalidInput);
 }
@@ -246,11 +246,11 @@ TEST(Fading, TellsTheWeightOfALoopAndOfAHold) {
     up += told(t) / steps;
     down += told(2.0 * turn - t) / steps;
   }
-  Course loop;
+  LoadingHistory loop;
   loop.loop = (up - down) / up;
   EXPECT_GT(loop.loop, 0.05);
   EXPECT_NEAR(fading_of(loop, ramp.forces, ramp.times, ramp.times, constant), weight, 2e-3);
-  Course hold;
+  LoadingHistory hold;
   hold.hold_time = 1.0;
   const double alive = remembered(force, turn, constant);
   hold.relaxation = weight * alive * -std::expm1(-hold.hold_time / constant) / told(turn);

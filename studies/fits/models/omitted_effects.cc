@@ -1,4 +1,4 @@
-#include "studies/fits/models/fit_suspects.h"
+#include "studies/fits/models/omitted_effects.h"
 
 #include <algorithm>
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace fingertip::studies::inline fits::inline models {
 
-using calibration::Accusation;
 using calibration::Curve;
+using calibration::OmittedEffect;
 using calibration::rig_members;
 using calibration::rig_parameters;
-using calibration::Suspect;
+using calibration::ScoreTest;
 using Eigen::Index;
 using Eigen::VectorXd;
 
@@ -100,14 +100,14 @@ std::vector<Excess> excesses_of(const FitInput& input) {
 
 /// Of files that show a loop or a hold: a branch of the rubber that fades as long as their loading
 /// takes, which is where it bends the loading most. Without times the speed counts as constant.
-std::optional<Suspect> relaxation(const FitInput& input, const Stack& stack) {
-  Suspect suspect;
-  suspect.name = relaxation_name, suspect.share_of = "the force at once";
-  suspect.cause =
+std::optional<OmittedEffect> relaxation(const FitInput& input, const Stack& stack) {
+  OmittedEffect effect;
+  effect.name = relaxation_name, effect.share_of = "the force at once";
+  effect.cause =
       "the rubber's force falls with time, as its loop or hold shows; give its branches in "
       "rubber.relaxation, or fit them: calibration.parameters with \"relaxation\"";
-  suspect.change = VectorXd::Zero(stack.values);
-  suspect.least = suspect.most = 0.0;
+  effect.change = VectorXd::Zero(stack.values);
+  effect.least = effect.most = 0.0;
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const Curve& curve = input.curves[i];
     const VectorXd& forces = stack.fitted[i];
@@ -116,19 +116,19 @@ std::optional<Suspect> relaxation(const FitInput& input, const Stack& stack) {
     if (!(constant > 0.0) || !(forces(forces.size() - 1) > 0.0)) continue;
     const double shown = calibration::fading_of(curve.course, forces, curve.x, times, constant);
     if (!(shown > 0.0)) continue;
-    suspect.most = std::max(suspect.most, std::min(1.0, most_excess * shown));
-    suspect.change.segment(stack.first[i], forces.size()) =
+    effect.most = std::max(effect.most, std::min(1.0, most_excess * shown));
+    effect.change.segment(stack.first[i], forces.size()) =
         calibration::fading(forces, times, constant);
   }
-  if (suspect.most == 0.0) return std::nullopt;
-  return suspect;
+  if (effect.most == 0.0) return std::nullopt;
+  return effect;
 }
 
 /// The two kinds of a rig's quantities that explain most together, where none does alone.
 std::vector<std::string> best_pair(Trials& trials, const std::vector<Freed>& held,
-                                   const std::vector<Accusation>& found) {
+                                   const std::vector<ScoreTest>& found) {
   double least = trials.before();
-  for (const Accusation& each : found) least = std::min(least, trials.before() - each.decrease);
+  for (const ScoreTest& each : found) least = std::min(least, trials.before() - each.decrease);
   if (trials.freedom() < 3 ||
       calibration::chi_square_above(std::max(0.0, least), trials.freedom() - 1) > by_no_chance)
     return {};
@@ -162,33 +162,33 @@ std::vector<std::vector<double>> excess_of_finite_strain(const FitInput& input) 
   return excess_of(input, calibration::excess_of_finite_strain);
 }
 
-std::vector<Accusation> accusations_of(const FitInput& input, const calibration::CurveFit& fit,
-                                       const calibration::CurveFitOptions& options,
-                                       const FitModels& models, bool scatter) {
-  std::vector<Accusation> found;
+std::vector<ScoreTest> score_tests_of(const FitInput& input, const calibration::CurveFit& fit,
+                                      const calibration::CurveFitOptions& options,
+                                      const FitModels& models, bool scatter) {
+  std::vector<ScoreTest> found;
   if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return found;
   const Stack stack = stacked(input, fit);
-  std::vector<Suspect> suspects;
+  std::vector<OmittedEffect> effects;
   for (const Excess& excess : excesses_of(input)) {
-    Suspect& suspect = suspects.emplace_back(Suspect{excess.name, "", excess.cause, "1",
-                                                     VectorXd::Zero(stack.values), 0.0, most_excess,
-                                                     "what coarse lattices compute for it"});
+    OmittedEffect& effect = effects.emplace_back(
+        OmittedEffect{excess.name, "", excess.cause, "1", VectorXd::Zero(stack.values), 0.0,
+                      most_excess, "what coarse lattices compute for it"});
     for (std::size_t i = 0; i < input.curves.size(); ++i) {
       const std::vector<double> relative =
           at_values(input.curves[i], start_of(input.options), excess.at_samples[i]);
-      suspect.change.segment(stack.first[i], Index(relative.size())) =
+      effect.change.segment(stack.first[i], Index(relative.size())) =
           stack.fitted[i].cwiseProduct(VectorXd::Map(relative.data(), Index(relative.size())));
     }
   }
   if (input.branches.empty())  // else it is in the model
-    if (auto fades = relaxation(input, stack)) suspects.push_back(*std::move(fades));
-  found = calibration::accusations(fit, options, suspects);
+    if (auto fades = relaxation(input, stack)) effects.push_back(*std::move(fades));
+  found = calibration::score_tests(fit, options, effects);
   const auto gravest_first = [&] {
-    std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);
+    std::ranges::stable_sort(found, std::greater<>(), &ScoreTest::decrease);
     // What explains as much and shows itself besides goes first: no other cause makes a loop.
     // A stiffening has no cause of its own: those that are named go before it.
     const bool unnamed = !found.empty() && found.front().name == stiffening_name;
-    const auto better = std::ranges::find_if(found, [&](const Accusation& each) {
+    const auto better = std::ranges::find_if(found, [&](const ScoreTest& each) {
       return each.decrease > nearly_all * found.front().decrease &&
              (each.name == relaxation_name || (unnamed && each.name != stiffening_name));
     });
@@ -201,7 +201,7 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
     for (const Freed& each : held) if_it_can_be([&] { found.push_back(trials.of(each)); });
     gravest_first();
     const std::vector<std::string> pair = best_pair(trials, held, found);
-    std::ranges::stable_partition(found, [&](const Accusation& each) {
+    std::ranges::stable_partition(found, [&](const ScoreTest& each) {
       return std::ranges::find(pair, each.name) != pair.end();
     });
   });
