@@ -64,8 +64,7 @@ struct RelativeSize {
 /// |residual| over |y|; where y is zero, and over a travel, whose touch is unknown, over the
 /// largest |y|.
 RelativeSize relative_size(const VectorXd& residuals, const Curve& curve) {
-  const std::vector<double>& y = curve.y;
-  const VectorXd values = Eigen::Map<const VectorXd>(y.data(), Index(y.size()));
+  const VectorXd values = values_of(curve);
   const double largest = std::max(values.cwiseAbs().maxCoeff(), 1e-300);
   RelativeSize size;
   for (Index i = 0; i < values.size(); ++i) {
@@ -183,39 +182,13 @@ void add_statistics(const FitRecord& record, FitFile& file) {
   file.evaluations = fit.evaluations;
 }
 
-/// All curves' lists one below the other; NaN where there are none.
-struct Columns {
-  std::vector<VectorXd> fitted, left_out;
-};
-
-Columns columns(const FitRecord& record) {
-  Columns result;
-  for (std::size_t i = 0; i < record.curves.size(); ++i) {
-    const Curve& curve = record.curves[i];
-    const VectorXd y = Eigen::Map<const VectorXd>(curve.y.data(), Index(curve.y.size()));
-    result.fitted.push_back(y - record.fit.residuals[i]);
-    // A fit without the curve that failed predicts nothing.
-    const bool predicted = !record.left_out.empty() && record.left_out[i].failure.empty();
-    result.left_out.push_back(predicted ? VectorXd(y - record.left_out[i].residuals)
-                                        : VectorXd::Constant(y.size(), unknown));
-  }
-  return result;
-}
-
-/// Its place among all values.
-Index first_value(const FitRecord& record, std::size_t curve) {
-  Index first = 0;
-  for (std::size_t c = 0; c < curve; ++c) first += record.fit.residuals[c].size();
-  return first;
-}
-
 }  // namespace
 
 std::vector<double> total_sigma(const FitRecord& record, std::size_t curve) {
   std::vector<double> result = record.curves[curve].sigma;
   const MatrixXd& known = record.options.model_covariance;
   if (known.size() == 0) return result;
-  Index value = first_value(record, curve);
+  Index value = first_value(record.curves, curve);
   for (double& sigma : result) sigma = std::hypot(sigma, std::sqrt(known(value, value))), ++value;
   return result;
 }
@@ -230,7 +203,7 @@ ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
   if (sigma.empty()) return residual_structure(own_residuals(record, curve));
   const MatrixXd& known = record.options.model_covariance;
   if (known.size() == 0) return residual_structure(residuals);
-  const Index first = first_value(record, curve);
+  const Index first = first_value(record.curves, curve);
   // Whitened by itself: errors that presses share would bring one press's order into another's.
   const Index count = residuals.size();
   const auto eigen = decomposed_covariance(known.block(first, first, count, count),
@@ -275,16 +248,18 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
 }
 
 void write_fit_data(const FitRecord& record, const std::filesystem::path& file) {
-  const Columns computed = columns(record);
   std::vector<FitDataRow> rows;
   for (std::size_t c = 0; c < record.curves.size(); ++c) {
     const Curve& curve = record.curves[c];
     const std::vector<double> total = total_sigma(record, c);
+    // A fit without the curve that failed predicts nothing.
+    const bool predicted = !record.left_out.empty() && record.left_out[c].failure.empty();
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
       FitDataRow& row = rows.emplace_back();
       row.curve = curve.name;
       row.x = curve.x[i], row.measured = curve.y[i];
-      row.fitted = computed.fitted[c](Index(i)), row.left_out = computed.left_out[c](Index(i));
+      row.fitted = curve.y[i] - record.fit.residuals[c](Index(i));
+      if (predicted) row.left_out = curve.y[i] - record.left_out[c].residuals(Index(i));
       if (!record.indentation.empty()) row.indentation = record.indentation[c][i];
       if (curve.sigma.empty()) continue;
       row.sigma = curve.sigma[i], row.total_sigma = total[i];

@@ -28,9 +28,9 @@ void judge_misfit(Sentences& found, const FitRecord& record) {
                     " degrees of freedom, probability " + rounded(*fit.chi_square_probability, 2));
   if (fit.chi_square_probability) return;
   for (std::size_t c = 0; c < record.curves.size(); ++c) {
-    const auto& y = record.curves[c].y;
-    if (auto sentence = missed("the model", record.curves[c].name, own_residuals(record, c),
-                               Eigen::VectorXd::Map(y.data(), Index(y.size())), largest_misfit))
+    const Curve& curve = record.curves[c];
+    if (auto sentence = missed("the model", curve.name, own_residuals(record, c), values_of(curve),
+                               largest_misfit))
       found.push_back(*std::move(sentence));
   }
 }

@@ -54,18 +54,10 @@ std::string estimates(const CurveFit& fit) {
 }
 
 std::string misfit(const FitRecord& record) {
-  std::vector<double> residuals, values;
-  bool travel = false;
-  for (std::size_t c = 0; c < record.curves.size(); ++c) {
-    const Curve& curve = record.curves[c];
-    const Eigen::VectorXd& own = own_residuals(record, c);
-    residuals.insert(residuals.end(), own.begin(), own.end());
-    values.insert(values.end(), curve.y.begin(), curve.y.end());
-    travel = travel || curve.is_travel;
-  }
-  const double missed =
-      relative_rms(Eigen::VectorXd::Map(residuals.data(), Index(residuals.size())),
-                   Eigen::VectorXd::Map(values.data(), Index(values.size())));
+  const bool travel = std::ranges::any_of(record.curves, &Curve::is_travel);
+  const double missed = relative_rms(
+      stacked(record.own_residuals.empty() ? record.fit.residuals : record.own_residuals),
+      all_values(record.curves));
   if (std::isnan(missed)) return " All data are zero: there is nothing to be met.";
   std::string text = " The fit meets the data within " + percent(missed) + " (" +
                      std::string(name_of_relative_rms) + "), every single value within " +
@@ -177,20 +169,16 @@ std::string loops(const FitRecord& record) {
 /// forces, f = (x - x0)/c with a touch x0 of its own, which shows the compliance `j` alone.
 double narrowed_by_blank(const FitRecord& record, Index i, Index j) {
   const CurveFit& fit = record.fit;
-  std::vector<double> forces, deviations;
-  for (std::size_t c = 0; c < record.curves.size(); ++c) {
-    const Curve& curve = record.curves[c];
-    for (std::size_t k = 0; k < curve.y.size(); ++k) {
-      forces.push_back(curve.y[k]);
-      deviations.push_back(curve.sigma.empty() ? fit.residual_deviation : curve.sigma[k]);
-    }
-  }
-  const Index count = Index(forces.size());
-  const Eigen::VectorXd force = Eigen::VectorXd::Map(forces.data(), count),
-                        weight = Eigen::VectorXd::Map(deviations.data(), count).cwiseInverse();
+  const Eigen::VectorXd force = all_values(record.curves);
+  Eigen::VectorXd deviation = Eigen::VectorXd::Constant(force.size(), fit.residual_deviation);
+  for (std::size_t c = 0; c < record.curves.size(); ++c)
+    if (const auto& sigma = record.curves[c].sigma; !sigma.empty())
+      deviation.segment(first_value(record.curves, c), Index(sigma.size())) =
+          Eigen::VectorXd::Map(sigma.data(), Index(sigma.size()));
+  const Eigen::VectorXd weight = deviation.cwiseInverse();
   // A blank on a rigid machine has no travel at all: then the compliance is known.
   const double soft = std::max(std::abs(fit.estimates(j)), 1e-6 * fit.standard_errors(j));
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count, fit.estimates.size());
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(force.size(), fit.estimates.size());
   rows.col(j) = -force.cwiseProduct(weight) / soft;
   return 1.0 / narrowing(fit.covariance, rows, -weight / soft)(i);
 }

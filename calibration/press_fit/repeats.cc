@@ -19,25 +19,11 @@ namespace {
 
 constexpr std::size_t scatter_points = 40;
 
-Index first_row(const std::vector<Curve>& curves, std::size_t curve) {
-  Index row = 0;
-  for (std::size_t i = 0; i < curve; ++i) row += Index(curves[i].y.size());
-  return row;
-}
-
-Index row_count(const std::vector<Curve>& curves) {
-  return first_row(curves, curves.size());
-}
-
-VectorXd values_of(const Curve& curve) {
-  return VectorXd::Map(curve.y.data(), Index(curve.y.size()));
-}
-
 /// The fitted force of one curve over its zero, among all values.
 VectorXd force_of_curve(const std::vector<Curve>& curves, const CurveFit& fit,
                         const std::vector<VectorXd>& zero, std::size_t curve) {
-  VectorXd all = VectorXd::Zero(row_count(curves));
-  all.segment(first_row(curves, curve), zero[curve].size()) =
+  VectorXd all = VectorXd::Zero(first_value(curves, curves.size()));
+  all.segment(first_value(curves, curve), zero[curve].size()) =
       values_of(curves[curve]) - fit.residuals[curve] - zero[curve];
   return all;
 }
@@ -46,11 +32,12 @@ VectorXd force_of_curve(const std::vector<Curve>& curves, const CurveFit& fit,
 /// change.
 VectorXd fit_factors(Repeats& repeats, const std::vector<Curve>& curves, const CurveFit& fit,
                      const std::vector<std::size_t>& nuisance, const std::vector<VectorXd>& zero) {
-  const Index rows = row_count(curves), count = Index(repeats.places.size());
+  const Index rows = first_value(curves, curves.size()), count = Index(repeats.places.size());
   VectorXd residuals = VectorXd::Zero(rows);
   Index values = 0;
   for (const std::size_t curve : repeats.places) {
-    residuals.segment(first_row(curves, curve), fit.residuals[curve].size()) = fit.residuals[curve];
+    residuals.segment(first_value(curves, curve), fit.residuals[curve].size()) =
+        fit.residuals[curve];
     values += fit.residuals[curve].size();
   }
   MatrixXd columns(rows, count + Index(nuisance.size()));
@@ -63,7 +50,7 @@ VectorXd fit_factors(Repeats& repeats, const std::vector<Curve>& curves, const C
     // Only the group's rows: others have theirs.
     VectorXd column = VectorXd::Zero(rows);
     for (const std::size_t curve : repeats.places) {
-      const Index from = first_row(curves, curve), size = Index(curves[curve].y.size());
+      const Index from = first_value(curves, curve), size = Index(curves[curve].y.size());
       column.segment(from, size) = fit.jacobian.col(Index(parameter)).segment(from, size);
     }
     if (!(column.norm() > 0.0)) continue;
@@ -158,9 +145,6 @@ CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
   const int freedom = fit.degrees_of_freedom - int(count) + int(repeats.size());
   if (fit.chi_square || count == 0 || freedom < 1) return result;
   result.jacobian.conservativeResize(rows, parameters + count);
-  VectorXd residuals(rows);
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    residuals.segment(first_row(curves, i), fit.residuals[i].size()) = fit.residuals[i];
   Index column = parameters;
   for (const Repeats& group : repeats)
     for (const std::size_t curve : group.places)
@@ -168,11 +152,11 @@ CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
   // Columns differ in their units.
   const VectorXd sizes = result.jacobian.colwise().norm().cwiseMax(1e-300).transpose();
   const MatrixXd scaled = result.jacobian * sizes.cwiseInverse().asDiagonal();
-  const VectorXd all = fit.whitening * residuals;
+  const VectorXd all = fit.whitening * stacked(fit.residuals);
   const VectorXd left = all - scaled * scaled.completeOrthogonalDecomposition().solve(all);
   const VectorXd plain = fit.whitening.ldlt().solve(left);
   for (std::size_t i = 0; i < curves.size(); ++i)
-    result.residuals[i] = plain.segment(first_row(curves, i), fit.residuals[i].size());
+    result.residuals[i] = plain.segment(first_value(curves, i), fit.residuals[i].size());
   // Their variance is told by what is left.
   const double scale = std::sqrt(double(freedom) / std::max(left.squaredNorm(), 1e-300));
   result.whitening *= scale;
@@ -183,7 +167,7 @@ CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
 
 MatrixXd covariance_of(const std::vector<Repeats>& repeats, const std::vector<Curve>& curves,
                        const CurveFit& fit, const std::vector<VectorXd>& zero) {
-  const Index rows = row_count(curves);
+  const Index rows = first_value(curves, curves.size());
   MatrixXd covariance = MatrixXd::Zero(rows, rows);
   for (const Repeats& group : repeats)
     for (const std::size_t curve : group.places) {

@@ -1,6 +1,7 @@
 /// A measured relation between two quantities, and how uncertain it is.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -24,5 +25,45 @@ struct Curve {
   bool in_time = false;    ///< values follow each other in time, and x may stand still
   LoadingHistory course = {};
 };
+
+/// Its y.
+inline Eigen::Map<const Eigen::VectorXd> values_of(const Curve& curve) {
+  return {curve.y.data(), Eigen::Index(curve.y.size())};
+}
+
+/// The place of a curve's first value among those of all.
+template <typename Curves>
+Eigen::Index first_value(const Curves& curves, std::size_t curve) {
+  Eigen::Index first = 0;
+  for (std::size_t i = 0; i < curve; ++i) first += Eigen::Index(curves[i].y.size());
+  return first;
+}
+
+/// Lists of curves, one below the other.
+inline Eigen::VectorXd stacked(const std::vector<Eigen::VectorXd>& lists) {
+  Eigen::Index row = 0;
+  for (const Eigen::VectorXd& list : lists) row += list.size();
+  Eigen::VectorXd all(row);
+  row = 0;
+  for (const Eigen::VectorXd& list : lists) {
+    all.segment(row, list.size()) = list;
+    row += list.size();
+  }
+  return all;
+}
+
+inline double sum_of_squares(const std::vector<Eigen::VectorXd>& lists) {
+  double sum = 0.0;
+  for (const Eigen::VectorXd& list : lists) sum += list.squaredNorm();
+  return sum;
+}
+
+/// The y of all curves, one below the other.
+template <typename Curves>
+Eigen::VectorXd all_values(const Curves& curves) {
+  std::vector<Eigen::VectorXd> lists;
+  for (const Curve& curve : curves) lists.emplace_back(values_of(curve));
+  return stacked(lists);
+}
 
 }  // namespace fingertip::calibration::inline statistics

@@ -56,8 +56,7 @@ LeftOut leave_out(const std::vector<Curve>& curves, const std::vector<ForwardMod
                                     without_values(options, curves, place));
     if (!fit.converged) throw meshes::NotConverged("no minimum within the evaluations allowed");
     const VectorXd predicted = models[place]->evaluate(fit.estimates).value;
-    const auto& y = curves[place].y;
-    result.residuals = Eigen::Map<const VectorXd>(y.data(), Index(y.size())) - predicted;
+    result.residuals = values_of(curves[place]) - predicted;
     result.estimates = fit.estimates;
   } catch (const meshes::InvalidInput& error) {
     result.failure = error.what();
@@ -72,10 +71,8 @@ LeftOut leave_out(const std::vector<Curve>& curves, const std::vector<ForwardMod
 /// The model's values over their deviations.
 VectorXd whitened_values(CurveResiduals& residuals, const std::vector<Curve>& curves,
                          const VectorXd& parameters) {
-  std::vector<double> measured;
-  for (const Curve& curve : curves) measured.insert(measured.end(), curve.y.begin(), curve.y.end());
   return residuals.at(parameters).residuals.head(residuals.values()) +
-         residuals.whitening() * Eigen::Map<const VectorXd>(measured.data(), residuals.values());
+         residuals.whitening() * all_values(curves);
 }
 
 /// sum f y / sum f² of the model's values f and the measured y over their deviations; none where
@@ -121,7 +118,7 @@ void check_ratios(const CurveFitOptions& options, const std::vector<double>& rat
 
 double worst_relative_error(const VectorXd& residuals, const Curve& curve) {
   // Before touch a travel's forces are noise about zero.
-  const double largest = VectorXd::Map(curve.y.data(), residuals.size()).cwiseAbs().maxCoeff();
+  const double largest = values_of(curve).cwiseAbs().maxCoeff();
   double worst = 0.0;
   for (Index i = 0; i < residuals.size(); ++i) {
     const double base = curve.is_travel ? largest : std::abs(curve.y[std::size_t(i)]);

@@ -55,8 +55,7 @@ const Minimum& best_of(const std::vector<Minimum>& minima, const CurveResiduals&
 /// sqrt(sum of squares / degrees of freedom) of the data alone [y].
 double deviation_of(CurveResiduals& residuals, const VectorXd& estimates) {
   const Linearisation& at = residuals.at(estimates);
-  double squares = 0.0;
-  for (const VectorXd& misfit : residuals.misfit(at)) squares += misfit.squaredNorm();
+  const double squares = sum_of_squares(residuals.misfit(at));
   return std::sqrt(squares / double(std::max<Index>(1, at.residuals.size() - estimates.size())));
 }
 
@@ -153,8 +152,7 @@ double add_squares(CurveFit& fit, const CurveResiduals& residuals, const Lineari
                    const CurveFitOptions& options) {
   fit.residuals = residuals.misfit(at);
   fit.degrees_of_freedom = int(at.residuals.size() - fit.estimates.size());
-  double squares = 0.0;
-  for (const VectorXd& misfit : fit.residuals) squares += misfit.squaredNorm();
+  const double squares = sum_of_squares(fit.residuals);
   if (fit.degrees_of_freedom > 0)
     fit.residual_deviation = std::sqrt(squares / fit.degrees_of_freedom);
   if (!residuals.has_sigma())

@@ -106,8 +106,7 @@ void add_parameters(std::vector<Violation>& found, const CurveFitOptions& option
 void add_model_covariance(std::vector<Violation>& found, const std::vector<Curve>& curves,
                           const CurveFitOptions& options) {
   const Eigen::MatrixXd& given = options.model_covariance;
-  Index values = 0;
-  for (const Curve& curve : curves) values += Index(curve.y.size());
+  const Index values = first_value(curves, curves.size());
   if (given.rows() != values || given.cols() != values || !given.allFinite() ||
       !given.isApprox(given.transpose(), 1e-9))
     found.push_back({"model_covariance", std::to_string(given.rows()) + " rows",
@@ -164,12 +163,10 @@ CurveResiduals::CurveResiduals(const std::vector<Curve>& curves,
                                const CurveFitOptions& options)
     : curves_(&curves), models_(&models), options_(&options) {
   has_sigma_ = !curves.front().sigma.empty();
-  std::vector<double> values, sigma;
-  for (const Curve& curve : curves) {
-    values.insert(values.end(), curve.y.begin(), curve.y.end());
+  std::vector<double> sigma;
+  for (const Curve& curve : curves)
     sigma.insert(sigma.end(), curve.sigma.begin(), curve.sigma.end());
-  }
-  const auto value = Eigen::Map<const Eigen::VectorXd>(values.data(), Index(values.size()));
+  const Eigen::VectorXd value = all_values(curves);
   whiten(value, Eigen::Map<const Eigen::VectorXd>(sigma.data(), Index(sigma.size())));
   noise_ = 0.5 * (whitening_ * (1e-10 * value)).squaredNorm();
   priors_ = std::ranges::count_if(options.free, [](const auto& free) { return bool(free.prior); });
@@ -275,9 +272,7 @@ const Linearisation& CurveResiduals::at(const Eigen::VectorXd& parameters) {
     now.jacobian.middleRows(row, count) = slopes.jacobian;
     row += count;
   }
-  Index first = 0;
-  for (const Curve& curve : *curves_)
-    for (const double measured : curve.y) now.residuals(first++) -= measured;
+  now.residuals.head(row) -= all_values(*curves_);
   if (has_sigma_ && options_->model_covariance.size() > 0) {
     now.residuals.head(row) = whitening_ * now.residuals.head(row);
     now.jacobian.topRows(row) = whitening_ * now.jacobian.topRows(row);
@@ -326,11 +321,8 @@ Linearisation CurveResiduals::with_loss(const Linearisation& linearisation) cons
 
 std::vector<Eigen::VectorXd> CurveResiduals::by_curve(const Eigen::VectorXd& all) const {
   std::vector<Eigen::VectorXd> result;
-  Index row = 0;
-  for (const Curve& curve : *curves_) {
-    result.push_back(all.segment(row, Index(curve.y.size())));
-    row += Index(curve.y.size());
-  }
+  for (std::size_t i = 0; i < curves_->size(); ++i)
+    result.push_back(all.segment(first_value(*curves_, i), Index((*curves_)[i].y.size())));
   return result;
 }
 

@@ -54,16 +54,11 @@ std::vector<ScoreTest> score_tests(const CurveFit& fit, const CurveFitOptions& o
   const Index values = fit.jacobian.rows(), count = fit.jacobian.cols();
   const Index priors = std::ranges::count_if(
       options.free, [](const FreeParameter& free) { return bool(free.prior); });
-  VectorXd misfit(values);
-  Index row = 0;
-  for (const VectorXd& curve : fit.residuals) {
-    misfit.segment(row, curve.size()) = curve;
-    row += curve.size();
-  }
   MatrixXd jacobian = MatrixXd::Zero(values + priors, count);
   VectorXd residuals(values + priors);
   jacobian.topRows(values) = fit.jacobian;
-  residuals.head(values) = fit.whitening * misfit;
+  residuals.head(values) = fit.whitening * stacked(fit.residuals);
+  Index row = values;
   for (Index j = 0; j < std::min(count, Index(options.free.size())); ++j)
     if (const auto& prior = options.free[std::size_t(j)].prior) {
       residuals(row) = (prior->mean - fit.estimates(j)) / prior->deviation;
@@ -94,15 +89,11 @@ ScoreTest score_test(const CurveFit& before, const CurveFit& after, const Omitte
     throw meshes::InvalidInput({"effects." + what.name, "sigma of one fit alone",
                                 "chi-square is compared with chi-square",
                                 "do both fits with the same curves and loss"});
-  const auto squares = [](const CurveFit& fit) {
-    double sum = 0.0;
-    for (const VectorXd& curve : fit.residuals) sum += curve.squaredNorm();
-    return sum;
-  };
   const double variance = std::max(std::pow(before.residual_deviation, 2), 1e-300);
-  const double decrease =
-      std::max(0.0, before.chi_square ? *before.chi_square - *after.chi_square
-                                      : (squares(before) - squares(after)) / variance);
+  const double decrease = std::max(
+      0.0, before.chi_square
+               ? *before.chi_square - *after.chi_square
+               : (sum_of_squares(before.residuals) - sum_of_squares(after.residuals)) / variance);
   return result(what, after.estimates(after.estimates.size() - 1), decrease, before);
 }
 

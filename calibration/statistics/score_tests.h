@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/files/fit_file.h"
+#include "calibration/statistics/curve.h"
 #include "calibration/statistics/fit_options.h"
 #include "calibration/statistics/fit_result.h"
 
@@ -30,9 +30,9 @@ struct OmittedEffect {
 /// changes v, both without what the fit's parameters can do (J and the priors' rows),
 ///   amount a = v.r/v.v within the effect's bounds,   decrease = 2 a v.r - a² v.v,
 /// chi-square of one degree of freedom where sigma is given; else F of 1 and dof - 1 from
-/// decrease/((dof - decrease)/(dof - 1)). Effects whose change the parameters imitate (less than 1e-6
-/// of v is left) are left out. Large amounts are beyond first order: the order still tells, the
-/// amounts do not. Throws InvalidInput for changes of another length.
+/// decrease/((dof - decrease)/(dof - 1)). Effects whose change the parameters imitate (less than
+/// 1e-6 of v is left) are left out. Large amounts are beyond first order: the order still tells,
+/// the amounts do not. Throws InvalidInput for changes of another length.
 std::vector<ScoreTest> score_tests(const CurveFit& fit, const CurveFitOptions& options,
                                    const std::vector<OmittedEffect>& effects);
 

@@ -30,22 +30,9 @@ constexpr double nearly_all = 0.9;
 /// A misfit that chance makes less often than this is one.
 constexpr double by_no_chance = 1e-3;
 
-/// Curves one below the other.
-struct Stack {
-  std::vector<VectorXd> fitted;
-  std::vector<Index> first;
-  Index values = 0;
-};
-
-Stack stacked(const FitInput& input, const calibration::CurveFit& fit) {
-  Stack stack;
-  for (std::size_t i = 0; i < input.curves.size(); ++i) {
-    const auto& y = input.curves[i].y;
-    stack.first.push_back(stack.values);
-    stack.fitted.push_back(VectorXd::Map(y.data(), Index(y.size())) - fit.residuals[i]);
-    stack.values += Index(y.size());
-  }
-  return stack;
+/// The forces that the fit has for a curve.
+VectorXd fitted_forces(const FitInput& input, const calibration::CurveFit& fit, std::size_t i) {
+  return values_of(input.curves[i]) - fit.residuals[i];
 }
 
 template <typename Do>
@@ -100,24 +87,24 @@ std::vector<Excess> excesses_of(const FitInput& input) {
 
 /// Of files that show a loop or a hold: a branch of the rubber that fades as long as their loading
 /// takes, which is where it bends the loading most. Without times the speed counts as constant.
-std::optional<OmittedEffect> relaxation(const FitInput& input, const Stack& stack) {
+std::optional<OmittedEffect> relaxation(const FitInput& input, const calibration::CurveFit& fit) {
   OmittedEffect effect;
   effect.name = relaxation_name, effect.share_of = "the force at once";
   effect.cause =
       "the rubber's force falls with time, as its loop or hold shows; give its branches in "
       "rubber.relaxation, or fit them: calibration.parameters with \"relaxation\"";
-  effect.change = VectorXd::Zero(stack.values);
+  effect.change = VectorXd::Zero(first_value(input.curves, input.curves.size()));
   effect.least = effect.most = 0.0;
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const Curve& curve = input.curves[i];
-    const VectorXd& forces = stack.fitted[i];
+    const VectorXd forces = fitted_forces(input, fit, i);
     const std::vector<double>& times = curve.time.empty() ? curve.x : curve.time;
     const double constant = times.back() - times.front();
     if (!(constant > 0.0) || !(forces(forces.size() - 1) > 0.0)) continue;
     const double shown = calibration::fading_of(curve.course, forces, curve.x, times, constant);
     if (!(shown > 0.0)) continue;
     effect.most = std::max(effect.most, std::min(1.0, most_excess * shown));
-    effect.change.segment(stack.first[i], forces.size()) =
+    effect.change.segment(first_value(input.curves, i), forces.size()) =
         calibration::fading(forces, times, constant);
   }
   if (effect.most == 0.0) return std::nullopt;
@@ -167,21 +154,20 @@ std::vector<ScoreTest> score_tests_of(const FitInput& input, const calibration::
                                       const FitModels& models, bool scatter) {
   std::vector<ScoreTest> found;
   if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return found;
-  const Stack stack = stacked(input, fit);
   std::vector<OmittedEffect> effects;
   for (const Excess& excess : excesses_of(input)) {
-    OmittedEffect& effect = effects.emplace_back(
-        OmittedEffect{excess.name, "", excess.cause, "1", VectorXd::Zero(stack.values), 0.0,
-                      most_excess, "what coarse lattices compute for it"});
+    std::vector<VectorXd> changes;
     for (std::size_t i = 0; i < input.curves.size(); ++i) {
       const std::vector<double> relative =
           at_values(input.curves[i], start_of(input.options), excess.at_samples[i]);
-      effect.change.segment(stack.first[i], Index(relative.size())) =
-          stack.fitted[i].cwiseProduct(VectorXd::Map(relative.data(), Index(relative.size())));
+      changes.push_back(fitted_forces(input, fit, i)
+                            .cwiseProduct(VectorXd::Map(relative.data(), Index(relative.size()))));
     }
+    effects.push_back({excess.name, "", excess.cause, "1", calibration::stacked(changes), 0.0,
+                       most_excess, "what coarse lattices compute for it"});
   }
   if (input.branches.empty())  // else it is in the model
-    if (auto fades = relaxation(input, stack)) effects.push_back(*std::move(fades));
+    if (auto fades = relaxation(input, fit)) effects.push_back(*std::move(fades));
   found = calibration::score_tests(fit, options, effects);
   const auto gravest_first = [&] {
     std::ranges::stable_sort(found, std::greater<>(), &ScoreTest::decrease);

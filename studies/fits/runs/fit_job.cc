@@ -102,22 +102,11 @@ void put_model_error(FitInput& input, const Eigen::VectorXd& forces) {
   input.options.relative_singular_value = 0.0;
 }
 
-Eigen::VectorXd measured_values(const FitInput& input) {
-  std::vector<double> all;
-  for (const FitCurve& curve : input.curves) all.insert(all.end(), curve.y.begin(), curve.y.end());
-  return Eigen::VectorXd::Map(all.data(), Eigen::Index(all.size()));
-}
-
 Eigen::VectorXd values_at_start(const FitInput& input, const std::vector<ForwardModel*>& models) {
-  const Eigen::VectorXd start = start_of(input.options);
-  Eigen::VectorXd all(measured_values(input).size());
-  Eigen::Index row = 0;
-  for (ForwardModel* model : models) {
-    const Eigen::VectorXd values = model->evaluate(start).value;
-    all.segment(row, values.size()) = values;
-    row += values.size();
-  }
-  return all;
+  std::vector<Eigen::VectorXd> values;
+  for (ForwardModel* model : models)
+    values.push_back(model->evaluate(start_of(input.options)).value);
+  return calibration::stacked(values);
 }
 
 /// From starts at the data's scale, every force as uncertain as noise and the known errors of its
@@ -125,7 +114,7 @@ Eigen::VectorXd values_at_start(const FitInput& input, const std::vector<Forward
 /// itself, to those of the start.
 calibration::CurveFit search(FitInput& input, const FitModels& models) {
   const bool errors = input.with_lattice_error || !input.theory_error_of.empty();
-  if (errors) put_model_error(input, measured_values(input));
+  if (errors) put_model_error(input, calibration::all_values(input.curves));
   start_from_data(input, models);
   if (errors) put_model_error(input, values_at_start(input, models.addresses()));
   return calibration::fit_curves(curves_of(input), models.addresses(), input.options);
