@@ -168,7 +168,6 @@ ModuliFit fit_moduli(const meshes::Rubber& rubber, const ModuliFitOptions& optio
   }
   fit.achieved = homogenised_moduli(fit.constants, options.spacing);
   add_residuals(fit);
-  fit.unidentifiable = Eigen::Vector4d(4.0, -4.0, 3.0, 0.0).normalized();
   return fit;
 }
 

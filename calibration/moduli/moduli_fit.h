@@ -10,6 +10,11 @@
 
 namespace fingertip::calibration::inline moduli {
 
+/// The direction of (k1, k2, k3, kappa), of unit length, along which no modulus of any lattice
+/// changes; in words, its largest component 1.
+inline const Eigen::Vector4d open_direction = Eigen::Vector4d(4.0, -4.0, 3.0, 0.0).normalized();
+inline constexpr const char* open_direction_words = "k1 + 1, k2 - 1, k3 + 0.75";
+
 struct ModuliFitOptions {
   lattice::ModelKind model = lattice::ModelKind::hookean;  ///< central or hookean
   double spacing = 0.0;                                    ///< a [m], > 0
@@ -33,8 +38,6 @@ struct ModuliFit {
   /// over its target, minus 1; with weights also E_110 and E_111 over E_100, K over its target,
   /// minus 1.
   meshes::Entries<double> residuals;
-  /// The direction of (k1, k2, k3, kappa), of unit length, along which no modulus changes.
-  Eigen::Vector4d unidentifiable;
   int iterations = 0;  ///< of the search for a compromise
 
   /// Whether weights ask for more than central springs can reach.

@@ -1,12 +1,17 @@
-/// The fit to the moduli as a file and as a material.
+/// The fit to the moduli in words, as a file and as a material.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "calibration/material/material.h"
 #include "calibration/moduli/moduli_fit.h"
 
 namespace fingertip::calibration::inline moduli {
+
+/// What `fit` reached, why it cannot reach more, which constants the tests leave open and how the
+/// choice among them was made; SI.
+std::string fit_statement(const ModuliFit& fit);
 
 /// The material that `fit` describes, with provenance, validity and statement filled in. Moduli
 /// know neither spacing, depth nor contact, so these have no bounds.

@@ -77,7 +77,7 @@ constexpr double least_gain = 0.02, gain_errors = 3.0;
 /// A way back above the loading gives more work than was done, which no rubber does: position and
 /// force do not belong together, and nothing says that they do on the way down. The area between n
 /// rows there and back over the travel s errs by 2 s noise/sqrt(n).
-void judge_way_back(Sentences& found, const FitRecord& record) {
+void judge_unloading(Sentences& found, const FitRecord& record) {
   for (const Curve& curve : record.curves) {
     const LoadingHistory& course = curve.course;
     if (!(course.loop < -least_gain)) continue;
@@ -183,7 +183,7 @@ std::vector<std::string> failed_tests(const FitRecord& record) {
                     "fewer parameters, or leave out depths that the model does not resolve");
   judge_misfit(found, record);
   judge_touch(found, record);
-  judge_way_back(found, record);
+  judge_unloading(found, record);
   judge_bounds(found, record);
   judge_identifiability(found, record);
   judge_material(found, record);

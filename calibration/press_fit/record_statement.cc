@@ -134,7 +134,7 @@ constexpr double told_loop = 0.02;
 
 /// Of a rubber that relaxes: its branches, what its moduli are, which of them the curves do not
 /// tell.
-std::string fading(const FitRecord& record) {
+std::string relaxation_words(const FitRecord& record) {
   const meshes::Relaxation& relaxation = record.material.rubber.relaxation;
   if (relaxation.empty()) return "";
   std::string text = " The rubber relaxes by";
@@ -256,7 +256,7 @@ std::string fit_statement(const FitRecord& record) {
   for (const std::string& failed : failed_tests(record)) text += "Not accepted: " + failed + ". ";
   text += estimates(record.fit) + misfit(record) + repeats(record) + open_directions(record.fit) +
           other_minima(record.fit) + collinearity(record) + assumptions(record) +
-          structures(record) + fading(record) + loops(record) + lack_of_fit(record);
+          structures(record) + relaxation_words(record) + loops(record) + lack_of_fit(record);
   const std::string next =
       prospect_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
   if (!next.empty()) text += " " + next;

@@ -1,7 +1,6 @@
 #include "studies/fits/runs/moduli_job.h"
 
 #include "calibration/moduli/cube_test.h"
-#include "calibration/moduli/fit_statement.h"
 #include "calibration/moduli/result_io.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/press/fields.h"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "calibration/moduli/cube_test.h"
-#include "calibration/moduli/fit_statement.h"
+#include "calibration/moduli/result_io.h"
 #include "meshes/base/errors.h"
 #include "tests/calibration/infinite_lattice.h"
 #include "tests/calibration/moduli/mechanisms.h"
@@ -235,10 +235,7 @@ TEST(ModuliFit, FiniteCubesOfTheFittedLatticesMeasureTheTargets) {
 TEST(ModuliFit, NamesTheOneDirectionThatChangesNoModulus) {
   for (const ModelKind model : {ModelKind::hookean, ModelKind::central}) {
     const ModuliFit result = fit(Rubber{}, model);
-    EXPECT_EQ(fingertip::calibration::describe_direction(result.unidentifiable),
-              "k1 + 1, k2 - 1, k3 + 0.75");
-
-    const Eigen::Vector4d t = 0.1 * result.constants.k2 * result.unidentifiable;
+    const Eigen::Vector4d t = 0.1 * result.constants.k2 * fingertip::calibration::open_direction;
     SpringConstants moved = result.constants;
     moved.k1 += t(0), moved.k2 += t(1), moved.k3 += t(2), moved.kappa += t(3);
     const ElasticModuli found = homogenised_moduli(moved, a);

@@ -1,4 +1,4 @@
-#include "studies/fits/runs/fit_contact.h"
+#include "studies/fits/runs/fit_corrections.h"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,56 @@
 #include <cmath>
 
 #include "calibration/files/words.h"
+#include "meshes/tables/interpolation.h"
 #include "studies/fits/setup/configured_fit.h"
 
 namespace fingertip::studies::inline fits::inline runs {
 
 using calibration::FitFile;
+using Eigen::Index;
 using meshes::ContactMode;
+
+namespace {
+
+std::string bias_words(const std::vector<calibration::ParameterEntry>& parameters) {
+  std::string text =
+      " The lattice's own error, measured by the continuum at the estimates, shifts them; with that"
+      " the 95 % intervals are";
+  for (const calibration::ParameterEntry& each : parameters)
+    text += fmt::format(
+        "{} {} {} to {} (shifted by {:+.2g} %)", &each == &parameters.front() ? "" : ",", each.name,
+        calibration::quantity_text(each.lower, each.unit),
+        calibration::quantity_text(each.upper, each.unit), 100.0 * each.bias / each.estimate);
+  return text + ".";
+}
+
+}  // namespace
+
+Eigen::VectorXd lattice_error(const calibration::Curve& curve, const std::vector<double>& residuals,
+                              const meshes::PressResponse& continuum) {
+  std::vector<double> fitted = curve.y;
+  for (std::size_t i = 0; i < fitted.size(); ++i) fitted[i] -= residuals[i];
+  std::vector<double> depths, relative;
+  for (const meshes::PressSample& sample : continuum.samples()) {
+    depths.push_back(sample.indentation);
+    relative.push_back(1.0 - sample.normal_force /
+                                 meshes::interpolated(curve.x, fitted, sample.indentation));
+  }
+  Eigen::VectorXd error(Index(fitted.size()));
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+    error(Index(i)) = fitted[i] * meshes::interpolated(depths, relative, curve.x[i]);
+  return error;
+}
+
+void add_bias(const Eigen::VectorXd& error, FitFile& fit) {
+  for (std::size_t p = 0; p < fit.parameters.size(); ++p) {
+    calibration::ParameterEntry& parameter = fit.parameters[p];
+    parameter.bias = -Eigen::VectorXd::Map(fit.influence[p].data(), error.size()).dot(error);
+    parameter.lower -= std::abs(parameter.bias);
+    parameter.upper += std::abs(parameter.bias);
+  }
+  fit.statement += bias_words(fit.parameters);
+}
 
 namespace {
 
@@ -19,8 +63,8 @@ ContactMode opposite(ContactMode contact) {
   return contact == ContactMode::stick ? ContactMode::frictionless : ContactMode::stick;
 }
 
-std::string statement(const FitFile& other, const std::string& taken, const std::string& name,
-                      const FitFile& fit) {
+std::string contact_words(const FitFile& other, const std::string& taken, const std::string& name,
+                          const FitFile& fit) {
   std::string text = fmt::format(
       " Whether the rubber sticks is not told (press.contact): {} is taken. With {} contact", taken,
       name);
@@ -54,7 +98,7 @@ std::optional<FitSetup> with_other_contact(const FitSetup& fit) {
 
 void add_other_contact(const FitFile& other, const std::string& taken, const std::string& name,
                        FitFile& fit) {
-  const std::string said = statement(other, taken, name, fit);
+  const std::string said = contact_words(other, taken, name, fit);
   fit.contact = {taken, name, other.chi_square, other.residual_deviation, {}};
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const calibration::ParameterEntry& rival = other.parameters[i];

@@ -1,11 +1,10 @@
-#include "studies/fits/runs/fit_bias.h"
+#include "studies/fits/runs/fit_corrections.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "studies/files/shown_units.h"
-#include "studies/fits/runs/fit_contact.h"
 #include "studies/fits/setup/configured_fit.h"
 #include "tests/expectations.h"
 
