@@ -1,5 +1,5 @@
 /// A finger of linear tetrahedra, as simulators of deformable bodies have it, pressed by a plane:
-/// what such a body answers can be foretold without the simulator.
+/// what such a body answers can be predicted without the simulator.
 ///
 /// Energy density of St. Venant and Kirchhoff, mu E:E + lambda/2 (tr E)² with Green's strain E,
 /// constant within a tetrahedron: MuJoCo's `elasticity` of a flex, SOFA's hyperelastic tetrahedra

@@ -319,7 +319,7 @@ std::vector<Violation> LawCard::violations() const {
 }
 
 LawCard card_of(const LawFit& fit, const std::vector<MaterialTest>& tests,
-                const std::vector<MaterialTest>& held_back) {
+                const std::vector<MaterialTest>& validation) {
   LawCard card;
   card.choice = fit.choice;
   const Eigen::Index own = Eigen::Index(coefficients(fit.choice).size());
@@ -345,7 +345,7 @@ LawCard card_of(const LawFit& fit, const std::vector<MaterialTest>& tests,
     }
   };
   add(tests, fit.fitted, true);
-  add(held_back, fit.predicted, false);
+  add(validation, fit.predicted, false);
   card.contradictions = fit.contradictions;
   card.rejected = in_one(fit.failed);
   if (!fit.bulk_modulus)

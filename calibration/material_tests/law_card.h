@@ -51,9 +51,9 @@ struct LawCard {
   std::vector<meshes::Violation> violations() const;
 };
 
-/// The card of a fit to `tests` that was asked for `held_back`.
+/// The card of a fit to `tests` that was asked for `validation`.
 LawCard card_of(const LawFit& fit, const std::vector<MaterialTest>& tests,
-                const std::vector<MaterialTest>& held_back);
+                const std::vector<MaterialTest>& validation);
 
 /// material.toml: [law] with coefficients, shares and times, [rubber] with E and G that follow (E
 /// for incompressible rubber where K is unknown), [validity], [[test]], [about]. Written

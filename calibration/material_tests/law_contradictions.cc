@@ -11,7 +11,7 @@
 #include <string>
 
 #include "calibration/files/words.h"
-#include "calibration/material/open_branches.h"
+#include "calibration/material/relaxation_branches.h"
 #include "calibration/statistics/curve_checks.h"
 
 namespace fingertip::calibration::inline material_tests {

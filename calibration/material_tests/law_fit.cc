@@ -260,7 +260,7 @@ LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
 }
 
 std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
-                              const std::vector<MaterialTest>& held_back,
+                              const std::vector<MaterialTest>& validation,
                               const std::vector<LawChoice>& laws, const LawFitOptions& options,
                               const std::function<void(double, const LawChoice&)>& next) {
   check_tests(tests);
@@ -271,7 +271,7 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
     LawFit fit;
     try {
       fit = fitted(tests, law, options, done);
-      for (const MaterialTest& test : held_back)
+      for (const MaterialTest& test : validation)
         fit.predicted.push_back(predict(fit, test, options.weights));
       add_missed_predictions(fit);
     } catch (const std::exception& error) {

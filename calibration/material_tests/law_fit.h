@@ -19,12 +19,12 @@ LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
 TestMisfit predict(const LawFit& fit, const MaterialTest& test,
                    TestWeights weights = TestWeights::test);
 
-/// The laws, fitted to `tests` and asked for `held_back`, the least AICc first, those without a fit
-/// last. None fits worse than a law that is a case of it. `next` is told each law before its fit,
-/// and the share of laws behind it; it may throw to stop. Throws as fit_law does where no law can
-/// be fitted for the tests' sake.
+/// The laws, fitted to `tests` and asked for `validation`, the least AICc first, those without a
+/// fit last. None fits worse than a law that is a case of it. `next` is told each law before its
+/// fit, and the share of laws behind it; it may throw to stop. Throws as fit_law does where no law
+/// can be fitted for the tests' sake.
 std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
-                              const std::vector<MaterialTest>& held_back,
+                              const std::vector<MaterialTest>& validation,
                               const std::vector<LawChoice>& laws, const LawFitOptions& options = {},
                               const std::function<void(double, const LawChoice&)>& next = {});
 

@@ -207,7 +207,7 @@ void LawModel::add_parts(const SizedLaw& law, const VectorXd& parameters, double
     put(2 * i + 2, by_coefficient(choice_, parameters, i, stretch), 1.0);
 }
 
-PartTable LawModel::lasting_parts(const VectorXd& parameters) const {
+PartTable LawModel::equilibrium_parts(const VectorXd& parameters) const {
   const SizedLaw law = sized_law(choice_, parameters);
   const std::vector<double>& states = course_.states();
   PartTable parts(Index(states.size()), 2 + 2 * Index(law_coefficients(choice_).size()));
@@ -246,10 +246,10 @@ CurveSlopes LawModel::evaluate(const VectorXd& parameters) {
     for (Index i = -1; i < own; ++i) add(i, parts, 2 * i + 2, 1.0);
     return result;
   }
-  const PartTable lasting = lasting_parts(parameters), now = course_.now(lasting);
+  const PartTable equilibrium = equilibrium_parts(parameters), now = course_.now(equilibrium);
   for (Index i = -1; i < own; ++i) add(i, now, 2 * i + 2, 1.0);
   for (std::size_t n = 0; n < relaxation.branches.size(); ++n) {
-    const FadingCourse::Branch branch = course_.branch(lasting, relaxation.branches[n].time);
+    const RelaxingTest::Branch branch = course_.branch(equilibrium, relaxation.branches[n].time);
     const double b = relaxation.relative_modulus(n);
     for (Index i = -1; i < own; ++i) add(i, branch.held, 2 * i + 2, b);
     // b_n = g_n/left.

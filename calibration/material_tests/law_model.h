@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "calibration/material/material_parameter.h"
-#include "calibration/material_tests/fading_course.h"
 #include "calibration/material_tests/material_test.h"
+#include "calibration/material_tests/relaxing_test.h"
 #include "calibration/statistics/forward_model.h"
 #include "meshes/rubber/relaxation.h"
 #include "meshes/rubber/strain_energy.h"
@@ -68,7 +68,7 @@ double mean_stress(double bulk_modulus, double volume_ratio);
 
 /// A material test as a curve, every stress over a scale of its own. Derivatives are exact: a law
 /// is a sum over its coefficients but for Ogden's exponents and Jm. Where the choice has branches
-/// and the test a path or a rate (FadingCourse), each of its stress_parts s becomes s + sum b_i
+/// and the test a path or a rate (RelaxingTest), each of its stress_parts s becomes s + sum b_i
 /// h_i, all moduli relaxing alike: free faces then bear nothing at any time, for K of any size, and
 /// the rest follows (README). A slow test without a rate is one after long times.
 class LawModel final : public ForwardModel {
@@ -84,8 +84,8 @@ class LawModel final : public ForwardModel {
 
   /// stress_parts of the law at the course's states and their derivatives by its coefficients, two
   /// columns each, over 1; from the law alone.
-  PartTable lasting_parts(const Eigen::VectorXd& parameters) const;
-  const FadingCourse& course() const { return course_; }
+  PartTable equilibrium_parts(const Eigen::VectorXd& parameters) const;
+  const RelaxingTest& course() const { return course_; }
   /// Over its scale, the sum at point p of parts times part_weights.
   double scaled(std::size_t p, const Eigen::RowVector2d& parts) const;
 
@@ -99,7 +99,7 @@ class LawModel final : public ForwardModel {
   std::vector<double> scales_;
   LawChoice choice_;
   std::vector<MaterialParameter> parameters_;
-  FadingCourse course_;
+  RelaxingTest course_;
 };
 
 }  // namespace fingertip::calibration::inline material_tests

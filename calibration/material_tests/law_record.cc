@@ -28,7 +28,7 @@ std::optional<InstabilityEntry> instability_entry(const std::optional<meshes::In
 }
 
 LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
-                   const std::vector<MaterialTest>& held_back) {
+                   const std::vector<MaterialTest>& validation) {
   LawEntry entry;
   entry.law = name(fit.choice);
   entry.failure = fit.failure;
@@ -40,8 +40,8 @@ LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
   entry.covariance = rows(fit.fit.covariance);
   for (std::size_t i = 0; i < tests.size(); ++i)
     entry.tests.push_back(law_test(fit.choice, tests[i], fit.fitted[i], "fit"));
-  for (std::size_t i = 0; i < held_back.size(); ++i)
-    entry.tests.push_back(law_test(fit.choice, held_back[i], fit.predicted[i], "predict"));
+  for (std::size_t i = 0; i < validation.size(); ++i)
+    entry.tests.push_back(law_test(fit.choice, validation[i], fit.predicted[i], "predict"));
   entry.unstable_in_tests = instability_entry(fit.unstable_in_tests);
   entry.unstable_in_use = instability_entry(fit.unstable_in_use);
   entry.unstable_in_press = instability_entry(fit.unstable_in_press);
@@ -76,7 +76,7 @@ std::string reason_of_choice(const LawFit& best, const std::vector<LawFit>& rank
 }  // namespace
 
 LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<MaterialTest>& tests,
-                   const std::vector<MaterialTest>& held_back, TestWeights weights) {
+                   const std::vector<MaterialTest>& validation, TestWeights weights) {
   LawsFile file;
   file.problem = "material";
   file.weights = name(weights);
@@ -87,7 +87,7 @@ LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<Materia
     file.shortest_time = (*times)[0];
     file.longest_time = (*times)[1];
   }
-  for (const LawFit& fit : ranking) file.laws.push_back(law_entry(fit, tests, held_back));
+  for (const LawFit& fit : ranking) file.laws.push_back(law_entry(fit, tests, validation));
   const LawFit* best = recommended(ranking);
   if (best == nullptr) {
     file.statement = "No law could be fitted: " + ranking.front().failure;
@@ -105,8 +105,8 @@ LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<Materia
   else
     file.statement = "Not accepted: no law passes its own tests. " + file.statement +
                      (first ? "." : "; " + file.recommended + " is shown.");
-  for (std::size_t i = 0; i < held_back.size(); ++i)
-    file.statement += " It predicts " + held_back[i].name + " within " +
+  for (std::size_t i = 0; i < validation.size(); ++i)
+    file.statement += " It predicts " + validation[i].name + " within " +
                       rounded(100.0 * best->predicted[i].rms_relative, 3) + " % (rms), " +
                       rounded(100.0 * best->predicted[i].largest_relative, 3) + " % at most.";
   return file;
@@ -114,7 +114,7 @@ LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<Materia
 
 std::vector<LawDataRow> law_data(const std::vector<LawFit>& ranking,
                                  const std::vector<MaterialTest>& tests,
-                                 const std::vector<MaterialTest>& held_back) {
+                                 const std::vector<MaterialTest>& validation) {
   std::vector<LawDataRow> rows;
   for (const LawFit& fit : ranking) {
     if (!fit.failure.empty()) continue;
@@ -129,7 +129,7 @@ std::vector<LawDataRow> law_data(const std::vector<LawFit>& ranking,
         }
     };
     add(tests, fit.fitted, "fit");
-    add(held_back, fit.predicted, "predict");
+    add(validation, fit.predicted, "predict");
   }
   return rows;
 }

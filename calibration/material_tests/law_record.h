@@ -107,11 +107,11 @@ constexpr auto fields_of(const LawDataRow*) {
 
 /// What the ranking says, as a file; `ranking` of rank_laws is not empty.
 LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<MaterialTest>& tests,
-                   const std::vector<MaterialTest>& held_back, TestWeights weights);
+                   const std::vector<MaterialTest>& validation, TestWeights weights);
 
 /// Stresses of every law that has a fit, at the tests' deformations.
 std::vector<LawDataRow> law_data(const std::vector<LawFit>& ranking,
                                  const std::vector<MaterialTest>& tests,
-                                 const std::vector<MaterialTest>& held_back);
+                                 const std::vector<MaterialTest>& validation);
 
 }  // namespace fingertip::calibration::inline material_tests

@@ -54,9 +54,9 @@ Eigen::MatrixXd columns_of(const std::vector<MaterialTest>& tests,
         columns(row + p, column) = model.scaled(std::size_t(p), parts.row(p).head<2>());
     };
     if (!model.course().empty()) {
-      const PartTable lasting = model.lasting_parts(coefficients).leftCols(2);
+      const PartTable equilibrium = model.equilibrium_parts(coefficients).leftCols(2);
       for (std::size_t i = 0; i < grid.size(); ++i)
-        put(Index(i) + 1, model.course().branch(lasting, grid[i]).held);
+        put(Index(i) + 1, model.course().branch(equilibrium, grid[i]).held);
     }
     for (Index p = 0; p < n; ++p)
       columns(row + p, columns.cols() - 1) =

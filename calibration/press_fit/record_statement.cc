@@ -4,7 +4,7 @@
 
 #include "calibration/files/fit_file.h"
 #include "calibration/files/words.h"
-#include "calibration/material/open_branches.h"
+#include "calibration/material/relaxation_branches.h"
 #include "calibration/press_fit/fit_record.h"
 #include "calibration/statistics/fit_statistics.h"
 

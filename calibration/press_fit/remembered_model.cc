@@ -1,5 +1,6 @@
 #include "calibration/press_fit/remembered_model.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -31,24 +32,10 @@ VectorXd to_vector(const json& list, Index count) {
 
 }  // namespace
 
-RememberedModel::RememberedModel(ForwardModel& model, std::filesystem::path file, Index values,
-                                 Index parameters, std::string what)
-    : model_(&model),
-      file_(std::move(file)),
-      values_(values),
-      parameters_(parameters),
-      what_(std::move(what)) {
-  load();
-}
-
 RememberedModel::Key RememberedModel::key(const VectorXd& parameters) {
   Key key(std::size_t(parameters.size()) * sizeof(double));
   std::memcpy(key.data(), parameters.data(), key.size());
   return key;
-}
-
-std::string RememberedModel::header() const {
-  return json{{"model", what_}, {"values", values_}, {"parameters", parameters_}}.dump();
 }
 
 void RememberedModel::refuse(int line, const std::string& value, const std::string& rule) const {
@@ -56,28 +43,27 @@ void RememberedModel::refuse(int line, const std::string& value, const std::stri
                               "remove the file to compute its answers anew"});
 }
 
-/// Lines up to the last end of a line; the rest is cut off once they have proved to be ours.
-void RememberedModel::load() {
+/// Reads lines up to the last end of a line; the rest is cut off once they have proved to be ours.
+RememberedModel::RememberedModel(ForwardModel& model, std::filesystem::path file, Index values,
+                                 Index parameters, const std::string& what)
+    : model_(&model), file_(std::move(file)), values_(values), parameters_(parameters) {
+  const std::string header =
+      json{{"model", what}, {"values", values}, {"parameters", parameters}}.dump();
   std::ifstream in(file_, std::ios::binary);
   std::stringstream content;
   if (in) content << in.rdbuf();
   in.close();
   const std::string text = content.str();
-  const std::size_t last = text.rfind('\n'), complete = last == std::string::npos ? 0 : last + 1;
-  if (complete == 0 && !header().starts_with(text))
-    refuse(1, text.substr(0, 200), "the file must be that of " + header());
+  const std::size_t complete = text.rfind('\n') + 1;
+  if (complete == 0 ? !header.starts_with(text) : !text.starts_with(header + '\n'))
+    refuse(1, text.substr(0, std::min<std::size_t>(text.find('\n'), 200)),
+           "the file must be that of " + header);
   std::istringstream lines(text.substr(0, complete));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number)
-    number == 1 ? read_header(line) : read_answer(line, number);
+    if (number > 1) read_answer(line, number);
   if (complete < text.size()) std::filesystem::resize_file(file_, complete);
-  if (complete == 0) append(header());
-}
-
-void RememberedModel::read_header(const std::string& line) const {
-  const json found = json::parse(line, nullptr, false);
-  if (found.is_discarded() || !found.is_object() || found != json::parse(header()))
-    refuse(1, line.substr(0, 200), "the file must be that of " + header());
+  if (complete == 0) append(header);
 }
 
 void RememberedModel::read_answer(const std::string& line, int number) {

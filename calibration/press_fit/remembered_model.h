@@ -25,7 +25,7 @@ class RememberedModel final : public ForwardModel {
   /// file of another model or other sizes and for lines that are not as above;
   /// std::runtime_error where the file cannot be written.
   RememberedModel(ForwardModel& model, std::filesystem::path file, Eigen::Index values,
-                  Eigen::Index parameters, std::string what);
+                  Eigen::Index parameters, const std::string& what);
 
   /// Throws as the model does; NotConverged is remembered like an answer. Answers that are not
   /// finite are not remembered.
@@ -42,18 +42,14 @@ class RememberedModel final : public ForwardModel {
   using Key = std::vector<unsigned char>;  ///< the parameters' bits
 
   static Key key(const Eigen::VectorXd& parameters);
-  void load();
-  void read_header(const std::string& line) const;
   void read_answer(const std::string& line, int number);
   void append(const std::string& line) const;
   void keep(const Eigen::VectorXd& parameters, Answer answer);
   [[noreturn]] void refuse(int line, const std::string& value, const std::string& rule) const;
-  std::string header() const;
 
   ForwardModel* model_;
   std::filesystem::path file_;
   Eigen::Index values_, parameters_;
-  std::string what_;
   std::map<Key, Answer> answers_;
 };
 

@@ -120,7 +120,7 @@ class PressCurve {
 /// F(delta) at the end of a step from `before`.
 class StepForce {
  public:
-  StepForce(const PressCurve& press, const FadingForce::Step& step, double before)
+  StepForce(const PressCurve& press, const RelaxingForce::Step& step, double before)
       : press_(press), step_(step), before_(before) {}
 
   struct Point {
@@ -141,7 +141,7 @@ class StepForce {
 
  private:
   const PressCurve& press_;
-  const FadingForce::Step& step_;
+  const RelaxingForce::Step& step_;
   double before_;
 };
 
@@ -232,7 +232,7 @@ CurveSlopes RigModel::evaluate(const VectorXd& parameters) {
   const Index count = Index(position_.size());
   CurveSlopes result{VectorXd(count), MatrixXd::Zero(count, parameters_)};
   indentation_ = VectorXd::Zero(count);
-  FadingForce fading(branches_, parameters);
+  RelaxingForce fading(branches_, parameters);
   const RowVectorXd none = RowVectorXd::Zero(parameters_);
   double before = 0.0;  // delta of the position before, and its derivatives
   RowVectorXd before_slopes = none;
@@ -248,7 +248,7 @@ CurveSlopes RigModel::evaluate(const VectorXd& parameters) {
       continue;
     }
     const Duration duration = loaded_since(std::size_t(i), offset);
-    const FadingForce::Step step = fading.step(duration.value);
+    const RelaxingForce::Step step = fading.step(duration.value);
     const StepForce force(press, step, before);
     const double delta = indentation_at(force, compliance, travel);
     const StepForce::Point point = force.at(delta);
@@ -260,11 +260,11 @@ CurveSlopes RigModel::evaluate(const VectorXd& parameters) {
     result.value(i) += point.force;
     // dF = explicit + F' ddelta, ddelta = -dx0 - F dc - c dF.
     const auto value_of = [&](const PressCurve::Point& own) {
-      FadingForce::Value value{own.force, none};
+      RelaxingForce::Value value{own.force, none};
       if (own.by_parameters.size() > 0) value.slopes.head(press_parameters_) = own.by_parameters;
       return value;
     };
-    FadingForce::Value end = value_of(point.end), middle = value_of(point.middle);
+    RelaxingForce::Value end = value_of(point.end), middle = value_of(point.middle);
     middle.slopes += 0.5 * point.middle.stiffness * before_slopes;
     RowVectorXd duration_slopes = none, travel_slopes = none;
     if (rig_.touch_offset.place) {

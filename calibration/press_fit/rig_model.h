@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "calibration/press_fit/fading_force.h"
+#include "calibration/press_fit/relaxing_force.h"
 #include "calibration/statistics/forward_model.h"
 
 namespace fingertip::calibration::inline press_fit {
@@ -35,9 +35,9 @@ std::vector<double> depths_for_rig(double deepest);
 ///   g(delta) = delta + c F(delta) - (x - x0) = 0
 /// has one root while 1 + c F' > 0, and by the implicit-function theorem, with s = 1/(1 + c F'),
 ///   df/dp = s dF/dp,  df/dx0 = -s F',  df/dc = -s F F',  df/dF0 = 1,  df/dF1 = t.
-/// Of a rubber that relaxes F is FadingForce's, step by step from position to position, delta going
-/// evenly within a step. It begins at touch: within a step that the travel enters, or, of a first
-/// position under load, at the speed of the first step.
+/// Of a rubber that relaxes F is RelaxingForce's, step by step from position to position, delta
+/// going evenly within a step. It begins at touch: within a step that the travel enters, or, of a
+/// first position under load, at the speed of the first step.
 class RigModel final : public ForwardModel {
  public:
   /// `press` answers at `depths` (positive, increasing, two or more; kept as a reference) and takes

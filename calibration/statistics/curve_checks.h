@@ -42,11 +42,6 @@ std::vector<LeftOut> leave_one_out(const std::vector<Curve>& curves,
                                    const std::vector<ForwardModel*>& models,
                                    const CurveFitOptions& options, const CurveFit& fit);
 
-struct ProfileOptions {
-  int points = 9;           ///< per parameter, >= 2
-  double half_width = 3.0;  ///< of the grid, in standard errors, > 0
-};
-
 /// Chi-square over two parameters, least over all others.
 struct Profile {
   /// Ascending, evenly spaced around the estimate; cut off at bounds, and at a tenth of the
@@ -58,14 +53,14 @@ struct Profile {
   Eigen::MatrixXd increase;
 };
 
-/// `first` and `second` are places in options.free. At every point of the grid the two are held and
-/// the others sought, starting where the fit's covariance expects them. Throws InvalidInput for
-/// places that are not two different ones, less than two points or a width that is not positive;
-/// Interrupted.
+/// `first` and `second` are places in options.free; the grid has `points` >= 2 per parameter, to
+/// three standard errors on both sides. At every point the two are held and the others sought,
+/// starting where the fit's covariance expects them. Throws InvalidInput for places that are not
+/// two different ones; Interrupted.
 Profile profile_likelihood(const std::vector<Curve>& curves,
                            const std::vector<ForwardModel*>& models, const CurveFitOptions& options,
                            const CurveFit& fit, std::size_t first, std::size_t second,
-                           const ProfileOptions& profile = {});
+                           int points = 9);
 
 /// The values of one parameter between which chi-square, least over all others, rises by less than
 /// the square of `half_width`, in units of sigma or of the residual deviation: of a quadratic loss

@@ -38,12 +38,12 @@ class HeldModel final : public ForwardModel {
   const std::vector<Index>& others_;
 };
 
-VectorXd grid_of(const FreeParameter& free, double estimate, double error,
-                 const ProfileOptions& profile) {
+VectorXd grid_of(const FreeParameter& free, double estimate, double error, int points) {
+  constexpr double half_width = 3.0;  // in standard errors
   const double positive = varies_by_logarithm(free) ? 0.1 * estimate : lower_bound(free);
-  const double from = std::max({estimate - profile.half_width * error, free.lower, positive});
-  return VectorXd::LinSpaced(profile.points, from,
-                             std::min(estimate + profile.half_width * error, free.upper));
+  return VectorXd::LinSpaced(points,
+                             std::max({estimate - half_width * error, free.lower, positive}),
+                             std::min(estimate + half_width * error, free.upper));
 }
 
 /// The loss's valley, seen from one or two of its parameters.
@@ -137,34 +137,23 @@ class Valley {
   double unit_ = 0.5;  ///< the loss of a standard error
 };
 
-void check(const CurveFitOptions& options, std::size_t first, std::size_t second,
-           const ProfileOptions& profile) {
-  std::vector<meshes::Violation> found;
-  if (first == second || std::max(first, second) >= options.free.size())
-    found.push_back({"profile", std::to_string(first) + ", " + std::to_string(second),
-                     "a profile is over two different free parameters", "name two of them"});
-  if (profile.points < 2 || !(profile.half_width > 0.0) || !std::isfinite(profile.half_width))
-    found.push_back({"profile.points", std::to_string(profile.points),
-                     "a profile has two points or more and a positive width", "change them"});
-  if (!found.empty()) throw meshes::InvalidInput(found);
-}
-
 }  // namespace
 
 Profile profile_likelihood(const std::vector<Curve>& curves,
                            const std::vector<ForwardModel*>& models, const CurveFitOptions& options,
-                           const CurveFit& fit, std::size_t first, std::size_t second,
-                           const ProfileOptions& profile) {
+                           const CurveFit& fit, std::size_t first, std::size_t second, int points) {
   check_curve_fit(curves, options);
-  check(options, first, second, profile);
+  if (first == second || std::max(first, second) >= options.free.size())
+    throw meshes::InvalidInput({"profile", std::to_string(first) + ", " + std::to_string(second),
+                                "a profile is over two different free parameters",
+                                "name two of them"});
   const auto grid = [&](std::size_t i) {
-    return grid_of(options.free[i], fit.estimates(Index(i)), fit.standard_errors(Index(i)),
-                   profile);
+    return grid_of(options.free[i], fit.estimates(Index(i)), fit.standard_errors(Index(i)), points);
   };
-  Profile result{grid(first), grid(second), Eigen::MatrixXd(profile.points, profile.points)};
+  Profile result{grid(first), grid(second), Eigen::MatrixXd(points, points)};
   Valley valley(curves, models, options, fit, {Index(first), Index(second)});
-  for (Index i = 0; i < profile.points; ++i)
-    for (Index j = 0; j < profile.points; ++j)
+  for (Index i = 0; i < points; ++i)
+    for (Index j = 0; j < points; ++j)
       result.increase(i, j) =
           valley.increase(Eigen::Vector2d(result.first_values(i), result.second_values(j)));
   return result;
@@ -207,10 +196,6 @@ double crossing(Valley& valley, double estimate, double error, double sign, doub
   }
   return std::isfinite(at_high) ? 0.5 * (low + high) : at_high;
 }
-
-}  // namespace
-
-namespace {
 
 /// Where sigma is not given the models' errors are no part of the loss but come through it.
 double error_through_models(const std::vector<Curve>& curves, const CurveFitOptions& options,

@@ -103,17 +103,6 @@ void add_parameters(std::vector<Violation>& found, const CurveFitOptions& option
   }
 }
 
-void add_model_covariance(std::vector<Violation>& found, const std::vector<Curve>& curves,
-                          const CurveFitOptions& options) {
-  const Eigen::MatrixXd& given = options.model_covariance;
-  const Index values = first_value(curves, curves.size());
-  if (given.rows() != values || given.cols() != values || !given.allFinite() ||
-      !given.isApprox(given.transpose(), 1e-9))
-    found.push_back({"model_covariance", std::to_string(given.rows()) + " rows",
-                     "must be finite and symmetric, with a row per value of all curves",
-                     "give one for these curves, or none"});
-}
-
 }  // namespace
 
 void check_curve_fit(const std::vector<Curve>& curves, const CurveFitOptions& options) {
@@ -133,20 +122,6 @@ void check_curve_fit(const std::vector<Curve>& curves, const CurveFitOptions& op
       found.push_back({"other_starts", std::to_string(start.size()) + " values",
                        "a start has a finite value within its bounds for every free parameter",
                        "complete or move it"});
-  if (!(options.tolerance > 0.0 && options.tolerance <= 0.1))
-    found.push_back({"tolerance", to_text(options.tolerance),
-                     "the tolerance is a share of a standard error, above 0, at most 0.1",
-                     "give 1e-7 or 1e-3"});
-  if (options.model_covariance.size() > 0) add_model_covariance(found, curves, options);
-  if (options.max_evaluations < 1)
-    found.push_back({"max_evaluations", std::to_string(options.max_evaluations),
-                     "a fit needs an evaluation", "give 1 or more"});
-  if (options.max_iterations < 1)
-    found.push_back({"max_iterations", std::to_string(options.max_iterations),
-                     "a fit needs an iteration", "give 1 or more"});
-  if (options.threads < 1)
-    found.push_back(
-        {"threads", std::to_string(options.threads), "a fit needs a thread", "give 1 or more"});
   std::size_t rows = 0;
   for (const Curve& curve : curves) rows += curve.x.size();
   for (const FreeParameter& free : options.free) rows += free.prior ? 1 : 0;

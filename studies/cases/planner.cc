@@ -78,7 +78,7 @@ LawInput laws_of(const LoadedConfig& loaded, const CaseRun& run) {
     throw ConfigError({{run.place, "case.material.law", run.law, "is not fitted",
                         "name one of calibration.laws"}});
   std::vector<std::string> tests;
-  for (const auto* list : {&input.tests.fitted, &input.tests.held_back})
+  for (const auto* list : {&input.tests.fitted, &input.tests.validation})
     for (const calibration::MaterialTest& test : *list) tests.push_back(test.name);
   if (!run.test.empty() && std::ranges::find(tests, run.test) == tests.end())
     throw ConfigError({{run.place, "case.material.test", run.test, "there is no such test",

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "calibration/contact_laws/hydroelastic_ball.h"
+#include "calibration/contact_laws/pressure_law.h"
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
 #include "studies/exchange/texts.h"

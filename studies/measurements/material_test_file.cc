@@ -275,7 +275,7 @@ void TestReader::read() {
   const bool held = test_.word<bool>("use", {{"fit", false}, {"predict", true}}, false);
   found_.licence = result_.licence;
   read_published();
-  (held ? result_.held_back : result_.fitted).push_back(found_);
+  (held ? result_.validation : result_.fitted).push_back(found_);
   // Fitted ones come first.
   result_.stuck.insert(held ? result_.stuck.end()
                             : result_.stuck.begin() + std::ptrdiff_t(result_.fitted.size()) - 1,
@@ -306,7 +306,7 @@ void TestReader::read_slow(const std::vector<fs::path>& paths) {
 void note_rates(MaterialTestFile& file) {
   const auto slow = [](const MaterialTest& test) { return test.course == TestCourse::slow; };
   if (std::ranges::all_of(file.fitted, slow)) return;
-  for (const auto* list : {&file.fitted, &file.held_back})
+  for (const auto* list : {&file.fitted, &file.validation})
     for (const MaterialTest& test : *list)
       if (slow(test) && test.kind != TestKind::volumetric)
         file.notes.push_back(

@@ -21,7 +21,7 @@ inline constexpr double deepest_stuck_compression = 0.4;
 
 /// What the file says, in SI; files are read, averaged and converted.
 struct MaterialTestFile {
-  std::vector<calibration::MaterialTest> fitted, held_back;
+  std::vector<calibration::MaterialTest> fitted, validation;
   /// Per fitted test, then per one held back: plates that hold the ends; none where they slip or
   /// there are none.
   std::vector<std::optional<Plates>> stuck;

@@ -38,7 +38,7 @@ std::pair<std::size_t, bool> branch_of(MaterialParameter parameter) {
 
 }  // namespace
 
-LoadedConfig lasting(const LoadedConfig& loaded) {
+LoadedConfig in_equilibrium(const LoadedConfig& loaded) {
   return given_branches(loaded).empty() ? loaded : with_sets(loaded, {"rubber.relaxation=[]"});
 }
 

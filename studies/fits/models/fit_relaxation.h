@@ -17,7 +17,7 @@ namespace fingertip::studies::inline fits::inline models {
 inline constexpr const char* relaxation_word = "relaxation";
 
 /// The configuration with its rubber after long times, which is what presses in equilibrium know.
-LoadedConfig lasting(const LoadedConfig& loaded);
+LoadedConfig in_equilibrium(const LoadedConfig& loaded);
 
 /// What the word stands for: shares and times of the branches of rubber.relaxation, of one if there
 /// are none.

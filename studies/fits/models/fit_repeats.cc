@@ -64,6 +64,17 @@ void share_depths(FitInput& input) {
   }
 }
 
+bool scatter(const std::vector<calibration::Repeats>& repeats) {
+  return std::ranges::any_of(
+      repeats, [](const calibration::Repeats& group) { return group.deviation > 0.0; });
+}
+
+namespace {
+
+using calibration::Curve, calibration::CurveFit, calibration::Repeats;
+using Eigen::Index, Eigen::MatrixXd;
+
+/// Of groups of two curves or more.
 std::vector<calibration::Repeats> repeats_in(const FitInput& input,
                                              const calibration::CurveFit& fit) {
   std::vector<std::size_t> nuisance;
@@ -80,20 +91,11 @@ std::vector<calibration::Repeats> repeats_in(const FitInput& input,
   return found;
 }
 
+/// What repeats leave, each with its own factor.
 calibration::CurveFit fit_apart(const FitInput& input, const calibration::CurveFit& fit,
                                 const std::vector<calibration::Repeats>& repeats) {
   return calibration::apart(fit, repeats, curves_of(input), zeros(input, fit.estimates));
 }
-
-bool scatter(const std::vector<calibration::Repeats>& repeats) {
-  return std::ranges::any_of(
-      repeats, [](const calibration::Repeats& group) { return group.deviation > 0.0; });
-}
-
-namespace {
-
-using calibration::Curve, calibration::CurveFit, calibration::Repeats;
-using Eigen::Index, Eigen::MatrixXd;
 
 /// From where `before` ended, with that covariance.
 CurveFit fit_again(const FitInput& input, const std::vector<calibration::ForwardModel*>& models,
@@ -141,8 +143,11 @@ void widen(CurveFit& fit, const std::vector<Repeats>& repeats, const MatrixXd& s
   }
 }
 
-}  // namespace
-
+/// The fit once more, from where it ended, the scatter in the covariance of all values
+/// (input.options.model_covariance): every repeat has a factor on its force, which no touch has to
+/// take up, and what is found is that of their mean. `repeats` are sought again until they stay;
+/// without sigma the values are weighed by what each repeat leaves of itself. Intervals of the
+/// rubber are Student's of the number of repeats, of rigs the part that repeats make.
 CurveFit fit_with_scatter(FitInput& input, const std::vector<calibration::ForwardModel*>& models,
                           const CurveFit& first, std::vector<Repeats>& repeats) {
   constexpr int rounds = 8;
@@ -184,8 +189,6 @@ CurveFit fit_with_scatter(FitInput& input, const std::vector<calibration::Forwar
   widen(fit, repeats, scattered);
   return fit;
 }
-
-namespace {
 
 /// Intervals up to where chi-square has risen, in place of those of the covariance where both ends
 /// are found.

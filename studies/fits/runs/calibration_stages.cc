@@ -214,7 +214,8 @@ std::vector<PlannedJob> CalibrationStages::follow_up_jobs(const fs::path& run) {
 /// The press of the configuration with what was found.
 PlannedJob CalibrationStages::surrogate(const fs::path& run) const {
   const calibration::Material found = material(run);
-  lattice::PressSetup setup = press_setup(with_sets(lasting(loaded_), {"press.mode=static"}));
+  lattice::PressSetup setup =
+      press_setup(with_sets(in_equilibrium(loaded_), {"press.mode=static"}));
   setup.rubber = found.rubber;
   setup.rubber.relaxation = {};  // its forces are those after long times
   setup.lattice.constants = found.constants;

@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Points per parameter where an evaluation costs nothing: valleys are narrow.
-constexpr int fine_grid = 61;
+constexpr int fine_grid = 61, coarse_grid = 9;
 
 void add_profile(const FitInput& input, const std::vector<ForwardModel*>& models,
                  calibration::FitRecord& record) {
@@ -47,10 +47,9 @@ void add_profile(const FitInput& input, const std::vector<ForwardModel*>& models
     return std::size_t(std::ranges::find(record.fit.labels, name) - record.fit.labels.begin());
   };
   const std::size_t first = place(input.profile[0]), second = place(input.profile[1]);
-  calibration::ProfileOptions grid;
-  if (!has_presses(input) || by_continuum(input)) grid.points = fine_grid;
+  const int points = !has_presses(input) || by_continuum(input) ? fine_grid : coarse_grid;
   record.profile = calibration::profile_likelihood(record.curves, models, record.options,
-                                                   record.fit, first, second, grid);
+                                                   record.fit, first, second, points);
   record.profile_first = record.fit.parameters[first];
   record.profile_second = record.fit.parameters[second];
 }

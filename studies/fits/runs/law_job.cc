@@ -44,10 +44,10 @@ ordered_json law_inputs(const LawInput& input) {
       {"seed", input.options.seed},
       {"range_of_use", *input.options.range_of_use},
       {"about", {input.tests.material, input.tests.source, input.tests.licence}}};
-  for (const char* list : {"fitted", "held_back", "laws"}) inputs[list] = ordered_json::array();
+  for (const char* list : {"fitted", "validation", "laws"}) inputs[list] = ordered_json::array();
   for (const MaterialTest& test : input.tests.fitted) inputs["fitted"].push_back(test_inputs(test));
-  for (const MaterialTest& test : input.tests.held_back)
-    inputs["held_back"].push_back(test_inputs(test));
+  for (const MaterialTest& test : input.tests.validation)
+    inputs["validation"].push_back(test_inputs(test));
   for (const auto& law : input.laws) inputs["laws"].push_back(name(law));
   inputs["stuck"] = ordered_json::array();
   for (const auto& plates : input.tests.stuck)
@@ -57,7 +57,7 @@ ordered_json law_inputs(const LawInput& input) {
 }
 
 calibration::LawCard card_of_fit(const LawFit& fit, const LawInput& input) {
-  calibration::LawCard card = card_of(fit, input.tests.fitted, input.tests.held_back);
+  calibration::LawCard card = card_of(fit, input.tests.fitted, input.tests.validation);
   card.material = input.tests.material;
   card.source = input.tests.source;
   card.licence = input.tests.licence;
@@ -80,7 +80,7 @@ void write_cards(const std::vector<LawFit>& ranking, const LawInput& input,
 }
 
 std::vector<LawFit> ranked(const LawInput& input, const JobContext& context) {
-  return rank_laws(input.tests.fitted, input.tests.held_back, input.laws, input.options,
+  return rank_laws(input.tests.fitted, input.tests.validation, input.laws, input.options,
                    [&](double done, const calibration::LawChoice& law) {
                      if (!context.report(done, name(law)))
                        throw meshes::Interrupted("the fit of laws was stopped");
@@ -90,7 +90,7 @@ std::vector<LawFit> ranked(const LawInput& input, const JobContext& context) {
 /// The test `i` of those fitted and, after them, those held back.
 MaterialTest& test_at(LawInput& input, std::size_t i) {
   const std::size_t fitted = input.tests.fitted.size();
-  return i < fitted ? input.tests.fitted[i] : input.tests.held_back[i - fitted];
+  return i < fitted ? input.tests.fitted[i] : input.tests.validation[i - fitted];
 }
 
 /// Puts the factors of stuck plates by this law into the tests. The largest change of a factor.
@@ -129,10 +129,10 @@ std::vector<LawFit> ranked_between_plates(LawInput& input, const JobContext& con
 
 void run_laws(LawInput input, const fs::path& folder, const JobContext& context) {
   const std::vector<LawFit> ranking = ranked_between_plates(input, context);
-  const std::vector<MaterialTest>&fitted = input.tests.fitted, &held_back = input.tests.held_back;
-  const calibration::LawsFile file = laws_file(ranking, fitted, held_back, input.options.weights);
+  const std::vector<MaterialTest>&fitted = input.tests.fitted, &validation = input.tests.validation;
+  const calibration::LawsFile file = laws_file(ranking, fitted, validation, input.options.weights);
   meshes::write_json_file(file, folder / "laws.json");
-  meshes::write_rows(law_data(ranking, fitted, held_back), folder / "law_data.csv");
+  meshes::write_rows(law_data(ranking, fitted, validation), folder / "law_data.csv");
   write_cards(ranking, input, folder);
   write_json({{"problem", "material"},
               {"status", "finished"},
@@ -140,7 +140,7 @@ void run_laws(LawInput input, const fs::path& folder, const JobContext& context)
               {"recommended", file.recommended},
               {"laws", input.laws.size()},
               {"tests", fitted.size()},
-              {"predicted", held_back.size()},
+              {"predicted", validation.size()},
               {"statement", file.statement}},
              folder / "summary.json");
   context.log(file.statement);

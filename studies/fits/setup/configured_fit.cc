@@ -118,7 +118,7 @@ enum class Presses { made, planned };
 
 FitSetup assembled(const LoadedConfig& given, Presses presses) {
   const CalibrationSettings& wanted = given.config.calibration;
-  const LoadedConfig loaded = knows_relaxation(wanted) ? lasting(given) : given;
+  const LoadedConfig loaded = knows_relaxation(wanted) ? in_equilibrium(given) : given;
   check_model(loaded);
   check_data(loaded);
   FitSetup fit;
@@ -234,7 +234,7 @@ FitSetup set_up(const LoadedConfig& loaded, Presses presses) {
   if (lattice_of_fit(loaded) != LatticeUse::none)
     for (const std::string& note : spacing_notes(loaded)) fit.notes.push_back(note);
   fit.input.candidates = candidates_of(
-      knows_relaxation(loaded.config.calibration) ? lasting(fit.loaded) : fit.loaded, fit);
+      knows_relaxation(loaded.config.calibration) ? in_equilibrium(fit.loaded) : fit.loaded, fit);
   return fit;
 }
 

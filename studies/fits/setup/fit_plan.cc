@@ -179,7 +179,7 @@ Candidate pressed(const FirstPress& first, const std::string& name,
 }
 
 /// A continuum in three dimensions takes minutes: only on request.
-bool is_dear(const FirstPress& first, const Candidate& candidate) {
+bool is_expensive(const FirstPress& first, const Candidate& candidate) {
   return by_continuum(first.fit.input) && candidate.input &&
          !candidate.input->curves.front().continuum.axisymmetric();
 }
@@ -266,7 +266,7 @@ std::vector<Candidate> candidates_of(const LoadedConfig& loaded, const FitSetup&
           "condition",
           "did you mean " + nearest_word(entry, {std::begin(words), std::end(words)}) + "?");
     std::optional<Candidate> candidate = named_candidate(first, entry);
-    if (candidate && !is_dear(first, *candidate)) candidates.push_back(std::move(*candidate));
+    if (candidate && !is_expensive(first, *candidate)) candidates.push_back(std::move(*candidate));
   }
   return candidates;
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibration/contact_laws/hydroelastic_ball.h"
+#include "calibration/contact_laws/pressure_law.h"
 #include "meshes/base/errors.h"
 
 using namespace fingertip;

@@ -81,8 +81,8 @@ TEST_F(MaterialFiles, SemicolonsDecimalCommasPercentAndTrueStress) {
   ASSERT_EQ(file.fitted[0].deformation.size(), 2u);
   EXPECT_NEAR(file.fitted[0].deformation[0], 1.105, 1e-15);
   EXPECT_NEAR(file.fitted[0].stress[0], 1500.0, 1e-9);
-  ASSERT_EQ(file.held_back.size(), 1u);
-  EXPECT_NEAR(file.held_back[0].deformation[2], std::exp(0.5), 1e-15);
+  ASSERT_EQ(file.validation.size(), 1u);
+  EXPECT_NEAR(file.validation[0].deformation[2], std::exp(0.5), 1e-15);
 }
 
 TEST_F(MaterialFiles, RepeatsAreAveragedOnTheStrainTheyShare) {

@@ -72,14 +72,14 @@ MaterialTest tension() {
 class LawsReport : public testing::Test {
  protected:
   LawsReport() {
-    const std::vector<MaterialTest> tests = {hold(), cycles()}, held_back = {tension()};
+    const std::vector<MaterialTest> tests = {hold(), cycles()}, validation = {tension()};
     const auto ranking =
-        rank_laws(tests, held_back,
+        rank_laws(tests, validation,
                   {{meshes::RubberLaw::neo_hookean, 1, 0}, {meshes::RubberLaw::neo_hookean, 1, 1}});
     fs::create_directories(run_);
-    meshes::write_json_file(laws_file(ranking, tests, held_back, TestWeights::test),
+    meshes::write_json_file(laws_file(ranking, tests, validation, TestWeights::test),
                             run_ / "laws.json");
-    meshes::write_rows(law_data(ranking, tests, held_back), run_ / "law_data.csv");
+    meshes::write_rows(law_data(ranking, tests, validation), run_ / "law_data.csv");
     write_text(run_ / "summary.json", "{\"problem\": \"material\", \"status\": \"finished\"}");
     write_text(run_ / "manifest.json", "{\"verb\": \"calibrate\", \"units\": \"si\"}");
   }

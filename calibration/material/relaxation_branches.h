@@ -1,5 +1,9 @@
-/// A branch of a relaxation over a step in time.
+/// Branches of a relaxation: over a step in time, and those that data say nothing of.
 #pragma once
+
+#include <array>
+#include <string>
+#include <vector>
 
 #include "meshes/rubber/relaxation.h"
 
@@ -7,21 +11,21 @@ namespace fingertip::calibration::inline material {
 
 /// Of a step in time in which the stress after long times s goes as the parabola through its start,
 /// middle and end, a branch's stress h (meshes/rubber/relaxation.h, b = 1) goes exactly to
-///   keep h + gain (s_end - s_start) + 4 bend (s_end - 2 s_middle + s_start)
+///   decay h + gain (s_end - s_start) + 4 bend (s_end - 2 s_middle + s_start)
 /// `..._slope` are tau times the derivatives by tau, and minus the duration times those by it.
-struct FadingMoments {
-  double keep, gain, bend, keep_slope, gain_slope, bend_slope;
+struct PronyMoments {
+  double decay, gain, bend, decay_slope, gain_slope, bend_slope;
 
-  FadingMoments(double duration, double tau) {
+  PronyMoments(double duration, double tau) {
     const double x = duration / tau;
-    const meshes::PronyRecursion fading(duration, tau);
-    keep = fading.decay;
-    gain = fading.gain;
-    keep_slope = x * keep;
-    gain_slope = gain - keep;
+    const meshes::PronyRecursion step(duration, tau);
+    decay = step.decay;
+    gain = step.gain;
+    decay_slope = x * decay;
+    gain_slope = gain - decay;
     if (x > 0.5) {
-      bend = (0.5 * (1.0 + keep) - gain) / x;
-      bend_slope = 0.5 * keep + (keep - gain) / x + bend;
+      bend = (0.5 * (1.0 + decay) - gain) / x;
+      bend_slope = 0.5 * decay + (decay - gain) / x + bend;
       return;
     }
     // sum of (-x)^n (n - 1)/(2 (n + 1)!) over x: the closed form cancels.
@@ -37,5 +41,9 @@ struct FadingMoments {
     }
   }
 };
+
+/// A sentence for each branch faster or slower than the `times` that are observed [s].
+std::vector<std::string> open_branches(const meshes::Relaxation& relaxation,
+                                       const std::array<double, 2>& times);
 
 }  // namespace fingertip::calibration::inline material

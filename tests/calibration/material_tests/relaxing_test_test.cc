@@ -1,6 +1,6 @@
 /// Stresses of a rubber that relaxes in homogeneous tests: against closed forms at small strain, an
 /// integration of the branches in tensors, and the lattice that a press runs.
-#include "calibration/material_tests/fading_course.h"
+#include "calibration/material_tests/relaxing_test.h"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ double small_modulus(TestKind kind) {
   }
 }
 
-TEST(FadingCourse, RampAndHoldAtSmallStrainIsTheConvolution) {
+TEST(RelaxingTest, RampAndHoldAtSmallStrainIsTheConvolution) {
   constexpr double amount = 1e-7, ramp = 0.3;
   const meshes::Relaxation relaxation =
       relaxation_of(relaxing_neo.choice, relaxing_neo.coefficients);
@@ -102,7 +102,7 @@ TEST(FadingCourse, RampAndHoldAtSmallStrainIsTheConvolution) {
   }
 }
 
-TEST(FadingCourse, CyclesAtSmallStrainHaveStorageLossAndLoop) {
+TEST(RelaxingTest, CyclesAtSmallStrainHaveStorageLossAndLoop) {
   constexpr double amount = 1e-6;
   const meshes::Relaxation relaxation =
       relaxation_of(relaxing_neo.choice, relaxing_neo.coefficients);
@@ -224,7 +224,7 @@ LatticeStresses lattice_stresses(const RelaxingLaw& law, const MaterialTest& tes
 /// Free faces bear nothing at any time, and the others what the course says. The lattice takes the
 /// rate of the stress for constant in a step, an error of second order, which is extrapolated away;
 /// steps are long enough for it to note every one.
-TEST(FadingCourse, IsTheLatticeOfAPressAtLargeStrain) {
+TEST(RelaxingTest, IsTheLatticeOfAPressAtLargeStrain) {
   for (const RelaxingLaw& law : {relaxing_neo, relaxing_yeoh, relaxing_ogden})
     for (const TestKind kind : shape_tests) {
       const double rest = rest_of(kind);
@@ -274,7 +274,7 @@ double integrated(TestKind kind, const StrainPath& path, double until, int steps
   return P(0, kind == TestKind::simple_shear ? 1 : 0);
 }
 
-TEST(FadingCourse, IsTheEquationOfTheBranchesWrittenOut) {
+TEST(RelaxingTest, IsTheEquationOfTheBranchesWrittenOut) {
   const RelaxingLaw law = {{RubberLaw::mooney_rivlin, 1, 2},
                            numbers_of({8e3, 2e3, 0.3, 0.05, 0.2, 2.0})};
   for (const TestKind kind : shape_tests) {
@@ -293,7 +293,7 @@ TEST(FadingCourse, IsTheEquationOfTheBranchesWrittenOut) {
   }
 }
 
-TEST(FadingCourse, DerivativesAreThoseOfDifferences) {
+TEST(RelaxingTest, DerivativesAreThoseOfDifferences) {
   for (const RelaxingLaw& law : {relaxing_neo, relaxing_yeoh, relaxing_ogden})
     for (const TestKind kind : {TestKind::uniaxial, TestKind::simple_shear}) {
       MaterialTest test = in_time(kind, rough_path(kind), equal_steps(2.4, 12));
@@ -314,7 +314,7 @@ TEST(FadingCourse, DerivativesAreThoseOfDifferences) {
 }
 
 /// A slow test with a rate is the same test in time; without one it is that after long times.
-TEST(FadingCourse, ASlowTestCountsAtItsRate) {
+TEST(RelaxingTest, ASlowTestCountsAtItsRate) {
   MaterialTest slow;
   slow.name = "slow";
   slow.deformation = {0.7, 0.9, 1.0, 1.2, 1.8};
@@ -338,7 +338,7 @@ TEST(FadingCourse, ASlowTestCountsAtItsRate) {
   EXPECT_LT((stresses(relaxing_yeoh, slow) - 2.0 * lasting).norm(), 1e-5 * lasting.norm());
 }
 
-TEST(FadingCourse, RefusesWhatIsNoTest) {
+TEST(RelaxingTest, RefusesWhatIsNoTest) {
   const auto rule_of = [](const MaterialTest& test) {
     const auto found = test.violations();
     return found.empty() ? std::string() : found.front().rule;

@@ -1,10 +1,10 @@
-#include "calibration/material_tests/fading_course.h"
+#include "calibration/material_tests/relaxing_test.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "calibration/material/fading_moments.h"
+#include "calibration/material/relaxation_branches.h"
 
 namespace fingertip::calibration::inline material_tests {
 
@@ -32,7 +32,7 @@ std::array<double, 2> part_weights(TestKind kind, StressMeasure measure, double 
   return {measure == StressMeasure::cauchy ? deformation * deformation : deformation, 0.0};
 }
 
-FadingCourse::FadingCourse(const MaterialTest& test) : count_(test.deformation.size()) {
+RelaxingTest::RelaxingTest(const MaterialTest& test) : count_(test.deformation.size()) {
   if (test.kind == TestKind::volumetric) return;
   std::vector<std::size_t> points(count_);
   std::iota(points.begin(), points.end(), std::size_t(0));
@@ -56,12 +56,12 @@ FadingCourse::FadingCourse(const MaterialTest& test) : count_(test.deformation.s
   }
 }
 
-std::size_t FadingCourse::state(double deformation) {
+std::size_t RelaxingTest::state(double deformation) {
   if (states_.empty() || states_.back() != deformation) states_.push_back(deformation);
   return states_.size() - 1;
 }
 
-void FadingCourse::go_to(TestKind kind, double deformation, double duration, std::size_t point) {
+void RelaxingTest::go_to(TestKind kind, double deformation, double duration, std::size_t point) {
   const double from = states_.back();
   const double stretched = kind == TestKind::simple_shear ? 0.5 * std::abs(deformation - from)
                                                           : std::abs(std::log(deformation / from));
@@ -79,7 +79,7 @@ void FadingCourse::go_to(TestKind kind, double deformation, double duration, std
   }
 }
 
-void FadingCourse::follow(const StrainPath& path, TestKind kind, const std::vector<double>& times,
+void RelaxingTest::follow(const StrainPath& path, TestKind kind, const std::vector<double>& times,
                           const std::vector<std::size_t>& points) {
   fresh_ = true;
   states_.push_back(rest_of(kind));
@@ -98,16 +98,16 @@ void FadingCourse::follow(const StrainPath& path, TestKind kind, const std::vect
   }
 }
 
-PartTable FadingCourse::now(const PartTable& lasting) const {
-  PartTable result(Eigen::Index(count_), lasting.cols());
+PartTable RelaxingTest::now(const PartTable& equilibrium) const {
+  PartTable result(Eigen::Index(count_), equilibrium.cols());
   for (std::size_t i = 0; i < steps_.size(); ++i)
     if (points_[i] != none)
-      result.row(Eigen::Index(points_[i])) = lasting.row(Eigen::Index(steps_[i].end));
+      result.row(Eigen::Index(points_[i])) = equilibrium.row(Eigen::Index(steps_[i].end));
   return result;
 }
 
-FadingCourse::Branch FadingCourse::branch(const PartTable& lasting, double tau) const {
-  const Eigen::Index columns = lasting.cols();
+RelaxingTest::Branch RelaxingTest::branch(const PartTable& equilibrium, double tau) const {
+  const Eigen::Index columns = equilibrium.cols();
   Branch result{PartTable(Eigen::Index(count_), columns), PartTable(Eigen::Index(count_), columns)};
   Eigen::RowVectorXd held(columns), slope(columns), change(columns), bent(columns);
   for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -116,15 +116,15 @@ FadingCourse::Branch FadingCourse::branch(const PartTable& lasting, double tau) 
       held.setZero();
       slope.setZero();
     }
-    const FadingMoments m(step.duration, tau);
-    const auto start = lasting.row(Eigen::Index(step.start)),
-               middle = lasting.row(Eigen::Index(step.middle)),
-               end = lasting.row(Eigen::Index(step.end));
+    const PronyMoments m(step.duration, tau);
+    const auto start = equilibrium.row(Eigen::Index(step.start)),
+               middle = equilibrium.row(Eigen::Index(step.middle)),
+               end = equilibrium.row(Eigen::Index(step.end));
     change = end - start;
     bent = 4.0 * (change - 2.0 * (middle - start));
-    slope =
-        m.keep * slope + (m.keep_slope * held + m.gain_slope * change + m.bend_slope * bent) / tau;
-    held = m.keep * held + m.gain * change + m.bend * bent;
+    slope = m.decay * slope +
+            (m.decay_slope * held + m.gain_slope * change + m.bend_slope * bent) / tau;
+    held = m.decay * held + m.gain * change + m.bend * bent;
     if (points_[i] == none) continue;
     result.held.row(Eigen::Index(points_[i])) = held;
     result.by_time.row(Eigen::Index(points_[i])) = slope;

@@ -1,4 +1,4 @@
-#include "calibration/material/open_branches.h"
+#include "calibration/material/relaxation_branches.h"
 
 #include <numbers>
 

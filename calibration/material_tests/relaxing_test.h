@@ -37,22 +37,22 @@ using PartTable = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 ///   k = exp(-x), g = (1 - k)/x, f = ((1 + k)/2 - g)/x, x = duration/tau
 ///
 /// Steps end at all corners of the path and all points, and stretch the rubber by at most 2 %.
-class FadingCourse {
+class RelaxingTest {
  public:
   /// Of its path, or, where the course is slow, of its rate, both sides of rest on their own;
   /// without steps where there is neither.
-  explicit FadingCourse(const MaterialTest& test);
+  explicit RelaxingTest(const MaterialTest& test);
 
   bool empty() const { return steps_.empty(); }
   /// Deformations at which s is needed.
   const std::vector<double>& states() const { return states_; }
   /// From s at the states to s at the test's points.
-  PartTable now(const PartTable& lasting) const;
+  PartTable now(const PartTable& equilibrium) const;
   /// From s at the states to h at the test's points, and its derivative by tau; tau > 0 [s].
   struct Branch {
     PartTable held, by_time;
   };
-  Branch branch(const PartTable& lasting, double tau) const;
+  Branch branch(const PartTable& equilibrium, double tau) const;
 
  private:
   struct Step {

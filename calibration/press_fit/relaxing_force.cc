@@ -1,6 +1,6 @@
-#include "calibration/press_fit/fading_force.h"
+#include "calibration/press_fit/relaxing_force.h"
 
-#include "calibration/material/fading_moments.h"
+#include "calibration/material/relaxation_branches.h"
 #include "meshes/base/errors.h"
 
 namespace fingertip::calibration::inline press_fit {
@@ -28,7 +28,7 @@ std::vector<FitBranch> held_at(const std::vector<FitBranch>& branches, const Vec
   return held;
 }
 
-FadingForce::FadingForce(const std::vector<FitBranch>& branches, const VectorXd& parameters)
+RelaxingForce::RelaxingForce(const std::vector<FitBranch>& branches, const VectorXd& parameters)
     : parameters_(parameters.size()) {
   const meshes::Relaxation relaxation = relaxation_in(branches, parameters);
   const double instant = relaxation.instantaneous_ratio();
@@ -46,48 +46,49 @@ FadingForce::FadingForce(const std::vector<FitBranch>& branches, const VectorXd&
   reset();
 }
 
-void FadingForce::reset() {
+void RelaxingForce::reset() {
   now_ = {0.0, RowVectorXd::Zero(parameters_)};
   for (Branch& branch : own_) branch.held = now_;
 }
 
-FadingForce::Step FadingForce::step(double duration) const {
+RelaxingForce::Step RelaxingForce::step(double duration) const {
   Step step{duration};
   for (const Branch& branch : own_) {
-    const FadingMoments m(duration, branch.time);
+    const PronyMoments m(duration, branch.time);
     step.end += branch.excess * (m.gain + 4.0 * m.bend);
     step.middle -= 8.0 * branch.excess * m.bend;
-    step.rest += m.keep * branch.held.force + branch.excess * (4.0 * m.bend - m.gain) * now_.force;
+    step.rest += m.decay * branch.held.force + branch.excess * (4.0 * m.bend - m.gain) * now_.force;
   }
   return step;
 }
 
-FadingForce::Value FadingForce::after(const Branch& branch, const Step& step, const Value& middle,
-                                      const Value& end, const RowVectorXd& duration_slopes) const {
-  const FadingMoments m(step.duration, branch.time);
+RelaxingForce::Value RelaxingForce::after(const Branch& branch, const Step& step,
+                                          const Value& middle, const Value& end,
+                                          const RowVectorXd& duration_slopes) const {
+  const PronyMoments m(step.duration, branch.time);
   const double change = end.force - now_.force,
                bent = 4.0 * (end.force - 2.0 * middle.force + now_.force);
   const double gained = m.gain * change + m.bend * bent;
-  Value held{m.keep * branch.held.force + branch.excess * gained,
-             m.keep * branch.held.slopes + gained * branch.excess_slopes};
+  Value held{m.decay * branch.held.force + branch.excess * gained,
+             m.decay * branch.held.slopes + gained * branch.excess_slopes};
   held.slopes += branch.excess * (m.gain * (end.slopes - now_.slopes) +
                                   4.0 * m.bend * (end.slopes - 2.0 * middle.slopes + now_.slopes));
-  const double faded = m.keep_slope * branch.held.force +
+  const double faded = m.decay_slope * branch.held.force +
                        branch.excess * (m.gain_slope * change + m.bend_slope * bent);
   if (branch.time_place) held.slopes(*branch.time_place) += faded / branch.time;
   if (step.duration > 0.0) held.slopes -= faded / step.duration * duration_slopes;
   return held;
 }
 
-RowVectorXd FadingForce::slopes(const Step& step, const Value& middle, const Value& end,
-                                const RowVectorXd& duration_slopes) const {
+RowVectorXd RelaxingForce::slopes(const Step& step, const Value& middle, const Value& end,
+                                  const RowVectorXd& duration_slopes) const {
   RowVectorXd sum = end.slopes;
   for (const Branch& branch : own_) sum += after(branch, step, middle, end, duration_slopes).slopes;
   return sum;
 }
 
-void FadingForce::go_on(const Step& step, const Value& middle, const Value& end,
-                        const RowVectorXd& duration_slopes) {
+void RelaxingForce::go_on(const Step& step, const Value& middle, const Value& end,
+                          const RowVectorXd& duration_slopes) {
   for (Branch& branch : own_) branch.held = after(branch, step, middle, end, duration_slopes);
   now_ = end;
 }

@@ -37,10 +37,10 @@ std::vector<FitBranch> held_at(const std::vector<FitBranch>& branches,
 /// which are prescribed where the rubber touches, and of tractions, which vanish elsewhere; so is
 /// the integral of G/G_inf over them. That asks for neither a half-space nor the absence of
 /// friction; a stuck point stays where it is in both.
-class FadingForce {
+class RelaxingForce {
  public:
   /// Of `branches` (kept as a reference), which may be none: then F = s.
-  FadingForce(const std::vector<FitBranch>& branches, const Eigen::VectorXd& parameters);
+  RelaxingForce(const std::vector<FitBranch>& branches, const Eigen::VectorXd& parameters);
 
   bool empty() const { return own_.empty(); }
   /// Back to rest: nothing touches.
