@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "lattice/model/constants.h"
 #include "lattice/press/static_press.h"
@@ -21,20 +23,18 @@ namespace {
 
 /// The parameter of a press that is the same thing; none for E and G.
 std::optional<PressParameter> press_parameter(MaterialParameter parameter) {
-  switch (parameter) {
-    case MaterialParameter::youngs_modulus:
-    case MaterialParameter::shear_modulus:
-    case MaterialParameter::modulus: return std::nullopt;
-    case MaterialParameter::k1: return PressParameter::k1;
-    case MaterialParameter::k2: return PressParameter::k2;
-    case MaterialParameter::k3: return PressParameter::k3;
-    case MaterialParameter::kappa: return PressParameter::kappa;
-    case MaterialParameter::lame_shear: return PressParameter::shear_modulus;
-    case MaterialParameter::lambda: return PressParameter::lambda;
-    case MaterialParameter::bond: return PressParameter::bond;
-    case MaterialParameter::contact: return PressParameter::contact;
-    default: return std::nullopt;
-  }
+  using M = MaterialParameter;
+  using P = PressParameter;
+  static constexpr std::pair<M, P> same[] = {{M::k1, P::k1},
+                                             {M::k2, P::k2},
+                                             {M::k3, P::k3},
+                                             {M::kappa, P::kappa},
+                                             {M::lame_shear, P::shear_modulus},
+                                             {M::lambda, P::lambda},
+                                             {M::bond, P::bond},
+                                             {M::contact, P::contact}};
+  const auto found = std::ranges::find(same, parameter, &std::pair<M, P>::first);
+  return found == std::end(same) ? std::nullopt : std::optional(found->second);
 }
 
 bool is_tie(MaterialParameter parameter) {
@@ -89,19 +89,11 @@ constexpr double ratio_steps = 1e13;
 }  // namespace
 
 double value_of(MaterialParameter parameter, const PressSetup& setup) {
-  const lattice::SpringConstants& constants = setup.lattice.constants;
+  if (const auto same = press_parameter(parameter)) return lattice::value_of(*same, setup);
   switch (parameter) {
     case MaterialParameter::youngs_modulus:
     case MaterialParameter::modulus: return setup.rubber.youngs_modulus;
-    case MaterialParameter::shear_modulus:
-    case MaterialParameter::lame_shear: return setup.rubber.shear_modulus;
-    case MaterialParameter::lambda: return setup.rubber.lame_lambda();
-    case MaterialParameter::k1: return constants.k1;
-    case MaterialParameter::k2: return constants.k2;
-    case MaterialParameter::k3: return constants.k3;
-    case MaterialParameter::kappa: return constants.kappa;
-    case MaterialParameter::bond: return setup.lattice.ligament_stiffness;
-    case MaterialParameter::contact: return setup.lattice.contact_stiffness;
+    case MaterialParameter::shear_modulus: return setup.rubber.shear_modulus;
     case MaterialParameter::retardation_time: return setup.rubber.retardation_time;
     default: return meshes::unknown;
   }

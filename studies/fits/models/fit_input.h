@@ -39,14 +39,14 @@ struct FitInput;
 
 /// A measurement that might follow, of which the fit tells what it would tell.
 struct Candidate {
-  std::string name;    ///< "ball"
-  std::string press;   ///< for people: contact, obstacle, depth
-  double depth = 0.0;  ///< its largest indentation [m]
+  std::string name;        ///< "ball"
+  std::string press = {};  ///< for people: contact, obstacle, depth
+  double depth = 0.0;      ///< its largest indentation [m]
   bool blank = false;  ///< a rigid blank in place of the finger, pressed to the forces of the fit
   /// The press behind its rig, as the one curve of a fit of the same rubber; none: the first press
   /// of the fit itself, so that nothing is computed for it.
-  std::shared_ptr<const FitInput> input;
-  std::string refused;  ///< why it cannot be; empty: it can
+  std::shared_ptr<const FitInput> input = nullptr;
+  std::string refused = {};  ///< why it cannot be; empty: it can
 };
 
 /// A curve of a fit and what answers for it. The continuum of a press answers for it, makes its

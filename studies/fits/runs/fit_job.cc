@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "calibration/files/words.h"
@@ -239,8 +240,7 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   context.log(calibration::fit_statement(record));
 }
 
-}  // namespace
-
+/// What a fit or a plan depends on.
 ordered_json fit_inputs(const FitInput& input) {
   ordered_json inputs = {
       {"problem", name(input.problem)},
@@ -281,17 +281,15 @@ ordered_json fit_inputs(const FitInput& input) {
   return inputs;
 }
 
+}  // namespace
+
 Job fit_job(const FitInput& input) {
-  Job job;
-  job.kind = "fit";
-  job.inputs = fit_inputs(input);
-  job.source_hash = source_hash::calibration;
-  job.weight = fit_weight;
-  job.resumable = true;
-  job.run = [input](const fs::path& folder, const JobContext& context) {
-    run_fit(input, folder, context);
-  };
-  return job;
+  return {.kind = "fit",
+          .inputs = fit_inputs(input),
+          .source_hash = source_hash::calibration,
+          .run = std::bind_front(run_fit, input),
+          .weight = fit_weight,
+          .resumable = true};
 }
 
 }  // namespace fingertip::studies::inline fits::inline runs

@@ -11,9 +11,6 @@ namespace fingertip::studies::inline fits::inline runs {
 /// What the fit has found, as a material, whether it may be used or not.
 inline constexpr const char* estimates_name = "estimates.toml";
 
-/// What a fit or a plan depends on.
-nlohmann::ordered_json fit_inputs(const FitInput& input);
-
 /// The fit. Files: calibration.json, estimates.toml (a material.toml, which says so where the fit
 /// failed its own tests; none where the estimates are no material), fit_data.csv, summary.json;
 /// while it runs, evaluations/, from which it goes on when it is run again in the same folder.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "calibration/material_tests/law_card.h"
 #include "calibration/material_tests/law_record.h"
@@ -207,15 +208,11 @@ LawInput law_input(const LoadedConfig& loaded) {
 }
 
 Job law_job(const LawInput& input) {
-  Job job;
-  job.kind = "laws";
-  job.inputs = law_inputs(input);
-  job.source_hash = source_hash::calibration;
-  job.weight = fit_weight;
-  job.run = [input](const fs::path& folder, const JobContext& context) {
-    run_laws(input, folder, context);
-  };
-  return job;
+  return {.kind = "laws",
+          .inputs = law_inputs(input),
+          .source_hash = source_hash::calibration,
+          .run = std::bind_front(run_laws, input),
+          .weight = fit_weight};
 }
 
 }  // namespace fingertip::studies::inline fits::inline runs

@@ -1,5 +1,7 @@
 #include "studies/fits/runs/moduli_job.h"
 
+#include <functional>
+
 #include "calibration/moduli/cube_test.h"
 #include "calibration/moduli/result_io.h"
 #include "lattice/press/setup_fields.h"
@@ -67,35 +69,26 @@ void run_cubes(const meshes::Rubber& rubber, const lattice::SpringConstants& cen
 }  // namespace
 
 Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions& options) {
-  Job job;
-  job.kind = "moduli";
-  job.inputs = {{"rubber", rubber_inputs(rubber, lattice::Kinematics::small)},
-                {"model", lattice::name(options.model)},
-                {"spacing", options.spacing},
-                {"isotropy_weight", options.isotropy_weight},
-                {"bulk_weight", options.bulk_weight}};
-  job.source_hash = source_hash::calibration;
-  job.weight = moduli_weight;
-  job.run = [rubber, options](const fs::path& folder, const JobContext& context) {
-    run_moduli(rubber, options, folder, context);
-  };
-  return job;
+  return {.kind = "moduli",
+          .inputs = {{"rubber", rubber_inputs(rubber, lattice::Kinematics::small)},
+                     {"model", lattice::name(options.model)},
+                     {"spacing", options.spacing},
+                     {"isotropy_weight", options.isotropy_weight},
+                     {"bulk_weight", options.bulk_weight}},
+          .source_hash = source_hash::calibration,
+          .run = std::bind_front(run_moduli, rubber, options),
+          .weight = moduli_weight};
 }
 
 Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& central,
               const lattice::SpringConstants& hookean, double spacing) {
-  Job job;
-  job.kind = "cubes";
-  job.inputs = {{"rubber", rubber_inputs(rubber, lattice::Kinematics::small)},
-                {"central", json_of(central)},
-                {"hookean", json_of(hookean)},
-                {"spacing", spacing}};
-  job.source_hash = source_hash::calibration;
-  job.weight = 1.0;
-  job.run = [=](const fs::path& folder, const JobContext& context) {
-    run_cubes(rubber, central, hookean, spacing, folder, context);
-  };
-  return job;
+  return {.kind = "cubes",
+          .inputs = {{"rubber", rubber_inputs(rubber, lattice::Kinematics::small)},
+                     {"central", json_of(central)},
+                     {"hookean", json_of(hookean)},
+                     {"spacing", spacing}},
+          .source_hash = source_hash::calibration,
+          .run = std::bind_front(run_cubes, rubber, central, hookean, spacing)};
 }
 
 }  // namespace fingertip::studies::inline fits::inline runs

@@ -4,13 +4,13 @@
 
 #include <chrono>
 #include <cmath>
+#include <functional>
 
 #include "calibration/files/words.h"
 #include "calibration/material/file_parts.h"
 #include "calibration/statistics/fit_statistics.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
-#include "source_hash.h"
 #include "studies/files/plan_file.h"
 #include "studies/fits/models/fit_prospects.h"
 #include "studies/fits/models/fit_rig.h"
@@ -154,16 +154,10 @@ Job plan_job(const FitInput& input, const PlannedNoise& noise) {
   if (!(noise.relative > 0.0 || noise.absolute > 0.0))
     throw meshes::InvalidInput({"calibration.noise", "0", "a plan needs the noise of the forces",
                                 "give calibration.noise or calibration.noise_force"});
-  Job job;
+  Job job = fit_job(input);
   job.kind = "plan";
-  job.inputs = fit_inputs(input);
   job.inputs["noise"] = {noise.relative, noise.absolute};
-  job.source_hash = source_hash::calibration;
-  job.weight = fit_weight;
-  job.resumable = true;
-  job.run = [input, noise](const fs::path& folder, const JobContext& context) {
-    run_plan(input, noise, folder, context);
-  };
+  job.run = std::bind_front(run_plan, input, noise);
   return job;
 }
 

@@ -1,9 +1,11 @@
 #include "studies/fits/runs/surrogate_job.h"
 
 #include <cmath>
+#include <functional>
 
 #include "calibration/press_fit/lattice_forward_model.h"
 #include "calibration/surrogate/surrogate.h"
+#include "meshes/tables/fields_json.h"
 #include "source_hash.h"
 #include "studies/jobs/json_file.h"
 #include "studies/presses/press_record.h"
@@ -73,21 +75,15 @@ Job surrogate_job(const lattice::PressSetup& press, const ForceUncertainty& unce
   std::vector<std::string> names;
   for (const MaterialParameter parameter : uncertainty.parameters)
     names.emplace_back(calibration::name(parameter));
-  const Eigen::MatrixXd& covariance = uncertainty.covariance;
-  Job job;
-  job.kind = "surrogate";
-  job.inputs = {
-      {"format", 1},
-      {"press", inputs_of(setup)},
-      {"parameters", names},
-      {"covariance", std::vector<double>(covariance.data(), covariance.data() + covariance.size())},
-      {"model_error", uncertainty.model_error}};
-  job.source_hash = source_hash::calibration;
-  job.weight = surrogate_weight;
-  job.run = [setup, uncertainty](const fs::path& folder, const JobContext& context) {
-    run_surrogate(setup, uncertainty, folder, context);
-  };
-  return job;
+  return {.kind = "surrogate",
+          .inputs = {{"format", 1},
+                     {"press", inputs_of(setup)},
+                     {"parameters", names},
+                     {"covariance", meshes::json_of(uncertainty.covariance)},
+                     {"model_error", uncertainty.model_error}},
+          .source_hash = source_hash::calibration,
+          .run = std::bind_front(run_surrogate, setup, uncertainty),
+          .weight = surrogate_weight};
 }
 
 }  // namespace fingertip::studies::inline fits::inline runs

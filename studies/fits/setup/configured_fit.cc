@@ -122,20 +122,21 @@ FitSetup assembled(const LoadedConfig& given, Presses presses) {
   check_model(loaded);
   check_data(loaded);
   FitSetup fit;
-  fit.input.problem = wanted.problem;
-  fit.input.base = base_of(loaded);
-  fit.input.options.free = free_list(given, fit.input.base);
-  if (const auto note = held_ratio_note(given, fit.input)) fit.notes.push_back(*note);
-  if (knows_relaxation(wanted)) fit.input.branches = branches_of(given, fit.input.options.free);
-  if (presses == Presses::planned) check_plan(given, fit.input);
-  fit.input.options.robust_width = wanted.robust_width;
-  fit.input.options.tolerance = search_tolerance;
-  fit.input.options.serial = wanted.problem == CalibrationProblem::experiment;
-  fit.input.program = "fingertip " + program_version();
-  fit.input.profile = wanted.profile;
-  fit.input.density_known = loaded.entries.at("rubber.density").given;
-  fit.input.retardation_time_known = loaded.entries.at("rubber.retardation_time").given;
-  bound_poissons_ratio(loaded, fit.input);
+  FitInput& input = fit.input;
+  input.problem = wanted.problem;
+  input.base = base_of(loaded);
+  input.options.free = free_list(given, input.base);
+  if (const auto note = held_ratio_note(given, input)) fit.notes.push_back(*note);
+  if (knows_relaxation(wanted)) input.branches = branches_of(given, input.options.free);
+  if (presses == Presses::planned) check_plan(given, input);
+  input.options.robust_width = wanted.robust_width;
+  input.options.tolerance = search_tolerance;
+  input.options.serial = wanted.problem == CalibrationProblem::experiment;
+  input.program = "fingertip " + program_version();
+  input.profile = wanted.profile;
+  input.density_known = loaded.entries.at("rubber.density").given;
+  input.retardation_time_known = loaded.entries.at("rubber.retardation_time").given;
+  bound_poissons_ratio(loaded, input);
   const bool from_continuum =
       wanted.problem == CalibrationProblem::curve ||
       (wanted.problem == CalibrationProblem::damping && wanted.data.empty());
@@ -146,26 +147,26 @@ FitSetup assembled(const LoadedConfig& given, Presses presses) {
   } else {
     add_measured_curves(fit, loaded);
   }
-  start_branches(given, fit.input);
-  if (!fit.input.branches.empty() && wanted.bias && !by_continuum(fit.input))
+  start_branches(given, input);
+  if (!input.branches.empty() && wanted.bias && !by_continuum(input))
     throw refused(
         given, "calibration.bias", "true",
         "the continuum beside a fit presses a rubber in equilibrium, and this one relaxes",
         "leave it out, or let the continuum answer: calibration.forward = \"continuum\"");
-  check_profile(loaded, fit.input);
-  fit.input.scale_to_data = wanted.problem == CalibrationProblem::experiment ||
-                            wanted.problem == CalibrationProblem::finite_strain;
-  fit.input.start_ratios = start_ratios(fit.input);
-  fit.input.profile_intervals = has_profile_intervals(wanted, fit.input);
-  check_models(loaded, fit.input);
+  check_profile(loaded, input);
+  input.scale_to_data = wanted.problem == CalibrationProblem::experiment ||
+                        wanted.problem == CalibrationProblem::finite_strain;
+  input.start_ratios = start_ratios(input);
+  input.profile_intervals = has_profile_intervals(wanted, input);
+  check_models(loaded, input);
   // A reference ends where every force is known that well.
-  if (by_continuum(fit.input)) {
-    fit.input.theory_error_of = "the continuum's tolerance";
-    for (FitCurve& curve : fit.input.curves)
+  if (by_continuum(input)) {
+    input.theory_error_of = "the continuum's tolerance";
+    for (FitCurve& curve : input.curves)
       curve.theory_error.assign(curve.press.protocol.samples.size(),
                                 loaded.config.reference.tolerance);
   }
-  fit.input.with_lattice_error = std::ranges::all_of(fit.input.curves, is_lattice);
+  input.with_lattice_error = std::ranges::all_of(input.curves, is_lattice);
   fit.loaded = given;
   return fit;
 }

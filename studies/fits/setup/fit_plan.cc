@@ -161,7 +161,7 @@ std::shared_ptr<const FitInput> input_of(const FirstPress& first, const LoadedCo
 /// A press that has to be computed.
 Candidate pressed(const FirstPress& first, const std::string& name,
                   const std::vector<std::string>& further, double depth) {
-  Candidate candidate{name, {}, depth, false, {}, {}};
+  Candidate candidate{.name = name, .depth = depth};
   std::vector<std::string> condition = first.settings;
   condition.insert(condition.end(), further.begin(), further.end());
   try {
@@ -193,22 +193,18 @@ std::optional<Candidate> named_candidate(const FirstPress& first, const std::str
   using meshes::ObstacleShape;
   const meshes::PressProtocol& protocol = first.press.protocol;
   const meshes::Obstacle& obstacle = protocol.obstacle;
-  if (word == "repeat")
-    return Candidate{word, in_words(first.words(), first.depth), first.depth, false, {}, {}};
-  if (word == "shallow")
-    return Candidate{word,
-                     in_words(first.words(), shallow_factor * first.depth),
-                     shallow_factor * first.depth,
-                     false,
-                     {},
-                     {}};
+  if (word == "repeat" || word == "shallow") {
+    const double depth = (word == "repeat" ? 1.0 : shallow_factor) * first.depth;
+    return Candidate{.name = word, .press = in_words(first.words(), depth), .depth = depth};
+  }
   if (word == "blank") {
     const bool fitted = std::ranges::any_of(first.fit.input.options.free, [](const auto& free) {
       return free.parameter == calibration::MaterialParameter::compliance;
     });
     if (!fitted) return std::nullopt;
-    return Candidate{word, "a rigid blank in the finger's place, to the same forces", 0.0, true, {},
-                     {}};
+    return Candidate{.name = word,
+                     .press = "a rigid blank in the finger's place, to the same forces",
+                     .blank = true};
   }
   if (word == "deep") return pressed(first, word, {}, deep_factor * first.depth);
   if (word == "ball") {
@@ -240,7 +236,10 @@ Candidate conditioned(const FirstPress& first, const std::string& name,
                             [](const std::string& set) { return set.starts_with("press.depth"); }))
       depth = own.config.press.protocol.depth;
   } catch (const ConfigError& error) {
-    return {name, condition, depth, false, {}, to_string(error.problems().front())};
+    return {.name = name,
+            .press = condition,
+            .depth = depth,
+            .refused = to_string(error.problems().front())};
   }
   return pressed(first, name, further, depth);
 }
