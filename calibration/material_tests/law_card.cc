@@ -10,6 +10,7 @@
 #include "calibration/files/words.h"
 #include "calibration/material/material.h"
 #include "meshes/base/files.h"
+#include "meshes/tables/file_fields.h"
 
 namespace fingertip::calibration::inline material_tests {
 
@@ -30,6 +31,26 @@ VectorXd estimates_of(const LawCard& card) {
 std::string quantity_text(double value, std::string_view unit) {
   return unit == "1" ? to_text(value) : toml_text(to_text(value) + " " + std::string(unit));
 }
+
+/// What else bounds the tests, where it is known.
+struct Range {
+  std::string_view first, last, unit;
+  std::optional<std::array<double, 2>> LawCard::*range;
+};
+constexpr Range ranges[] = {{"slowest_rate", "fastest_rate", "1/s", &LawCard::rates},
+                            {"shortest_time", "longest_time", "s", &LawCard::times}};
+
+/// The texts of [about] but the last ones; one that may be missing is left out where it is empty.
+struct AboutText {
+  std::string_view key;
+  std::string LawCard::*text;
+  bool required = false;
+};
+constexpr AboutText about_texts[] = {
+    {"material", &LawCard::material}, {"source", &LawCard::source},
+    {"licence", &LawCard::licence},   {"provenance", &LawCard::provenance, true},
+    {"program", &LawCard::program},   {"date", &LawCard::date},
+    {"rejected", &LawCard::rejected}};
 
 std::string lines_of(std::string_view key, const CardValue& number, std::string_view unit) {
   std::string text = std::string(key) + " = " + quantity_text(number.value, unit) + '\n';
@@ -64,12 +85,10 @@ std::string card_toml(const LawCard& card) {
       "\nshear_modulus = " + quantity_text(g, "Pa") + '\n';
   text += "\n[validity]\nsmallest_stretch = " + to_text(card.tested[0]) +
           "\nlargest_stretch = " + to_text(card.tested[1]) + '\n';
-  if (card.rates)
-    text += "slowest_rate = " + quantity_text((*card.rates)[0], "1/s") +
-            "\nfastest_rate = " + quantity_text((*card.rates)[1], "1/s") + '\n';
-  if (card.times)
-    text += "shortest_time = " + quantity_text((*card.times)[0], "s") +
-            "\nlongest_time = " + quantity_text((*card.times)[1], "s") + '\n';
+  for (const Range& each : ranges)
+    if (const auto& range = card.*each.range)
+      text += std::string(each.first) + " = " + quantity_text((*range)[0], each.unit) + '\n' +
+              std::string(each.last) + " = " + quantity_text((*range)[1], each.unit) + '\n';
   for (const CardTest& test : card.tests)
     text +=
         "\n[[test]]\nname = " + toml_text(test.name) + "\nkind = " + toml_text(name(test.kind)) +
@@ -80,16 +99,9 @@ std::string card_toml(const LawCard& card) {
         "  # over the root mean square stress\nlargest_error = " + to_text(test.largest_relative) +
         "  # over the largest stress\n";
   text += "\n[about]\n";
-  const auto add = [&](const char* key, const std::string& value) {
-    if (!value.empty()) text += std::string(key) + " = " + toml_text(value) + '\n';
-  };
-  add("material", card.material);
-  add("source", card.source);
-  add("licence", card.licence);
-  text += "provenance = " + toml_text(card.provenance) + '\n';
-  add("program", card.program);
-  add("date", card.date);
-  add("rejected", card.rejected);
+  for (const AboutText& each : about_texts)
+    if (each.required || !(card.*each.text).empty())
+      text += std::string(each.key) + " = " + toml_text(card.*each.text) + '\n';
   text += "contradictions = " + list_text(card.contradictions) + '\n';
   // Last, so that a file cut short is noticed.
   return text + "statement = " + toml_text(card.statement) + '\n';
@@ -122,15 +134,13 @@ class CardReader : TomlFile {
     if (find("law", "bulk_modulus") != nullptr) card.bulk_modulus = value_at("bulk_modulus", "Pa");
     card.tested = {bare_number("validity", "smallest_stretch"),
                    bare_number("validity", "largest_stretch")};
-    if (find("validity", "slowest_rate") != nullptr)
-      card.rates = {number("validity", "slowest_rate", "1/s"),
-                    number("validity", "fastest_rate", "1/s")};
-    if (find("validity", "shortest_time") != nullptr)
-      card.times = {number("validity", "shortest_time", "s"),
-                    number("validity", "longest_time", "s")};
+    for (const Range& each : ranges)
+      if (find("validity", each.first) != nullptr)
+        card.*each.range = {number("validity", each.first, each.unit),
+                            number("validity", each.last, each.unit)};
     read_tests(card);
     read_about(card);
-    refuse_unknown_keys(card);
+    refuse_unknown_keys();
     std::vector<Violation> broken = card.violations();
     for (Violation& violation : broken) violation.key = file().string() + ": " + violation.key;
     if (!broken.empty()) throw InvalidInput(broken);
@@ -173,27 +183,20 @@ class CardReader : TomlFile {
       CardTest test;
       bool complete = one != nullptr && one->size() == (one->contains("course") ? 7 : 6);
       if (complete) {
-        const auto kind = (*one)["kind"].value<std::string>(),
-                   use = (*one)["use"].value<std::string>();
-        const auto known = values(TestKind());
-        const auto found =
-            std::ranges::find_if(known, [&](TestKind each) { return name(each) == kind; });
+        const auto word = [&](const char* key) { return (*one)[key].value_or(std::string()); };
+        const std::string use = word("use");
+        const auto kind = meshes::enumerator<TestKind>(word("kind"));
+        const auto course = meshes::enumerator<TestCourse>(word("course"));
         const auto points = (*one)["points"].value<std::int64_t>();
         const auto rms = (*one)["rms_error"].value<double>(),
                    largest = (*one)["largest_error"].value<double>();
-        for (const TestCourse course : values(TestCourse()))
-          if ((*one)["course"].value<std::string>() == name(course)) test.course = course;
-        complete = (one->contains("course") == (test.course != TestCourse::slow)) &&
-                   (*one)["name"].is_string() && found != known.end() && points && *points > 0 &&
-                   rms && largest && (use == "fit" || use == "predict");
+        test.course = course.value_or(TestCourse::slow);
+        complete = one->contains("course") == (test.course != TestCourse::slow) &&
+                   (*one)["name"].is_string() && kind && points && *points > 0 && rms && largest &&
+                   (use == "fit" || use == "predict");
         if (complete)
-          test = {*(*one)["name"].value<std::string>(),
-                  *found,
-                  use == "fit",
-                  std::size_t(*points),
-                  *rms,
-                  *largest,
-                  test.course};
+          test = {word("name"), *kind,    use == "fit", std::size_t(*points),
+                  *rms,         *largest, test.course};
       }
       if (!complete)
         fail(
@@ -206,16 +209,9 @@ class CardReader : TomlFile {
   }
 
   void read_about(LawCard& card) const {
-    const auto maybe = [&](std::string_view key) {
-      return find("about", key) == nullptr ? std::string() : text("about", key);
-    };
-    card.material = maybe("material");
-    card.source = maybe("source");
-    card.licence = maybe("licence");
-    card.provenance = text("about", "provenance");
-    card.program = maybe("program");
-    card.date = maybe("date");
-    card.rejected = maybe("rejected");
+    for (const AboutText& each : about_texts)
+      if (each.required || find("about", each.key) != nullptr)
+        card.*each.text = text("about", each.key);
     const toml::array* list = node("about", "contradictions").as_array();
     for (std::size_t i = 0; list != nullptr && i < list->size(); ++i)
       if (const auto sentence = list->get(i)->value_exact<std::string>())
@@ -226,37 +222,26 @@ class CardReader : TomlFile {
     card.statement = text("about", "statement");
   }
 
-  void refuse_unknown_keys(const LawCard& /*card*/) const {
-    static const std::set<std::string> others = {"law.name",
-                                                 "rubber.youngs_modulus",
-                                                 "rubber.shear_modulus",
-                                                 "validity.smallest_stretch",
-                                                 "validity.largest_stretch",
-                                                 "validity.slowest_rate",
-                                                 "validity.fastest_rate",
-                                                 "validity.shortest_time",
-                                                 "validity.longest_time",
-                                                 "about.material",
-                                                 "about.source",
-                                                 "about.licence",
-                                                 "about.provenance",
-                                                 "about.program",
-                                                 "about.date",
-                                                 "about.rejected",
-                                                 "about.contradictions",
-                                                 "about.statement"};
+  void refuse_unknown_keys() const {
+    std::set<std::string> known = {"law.name",
+                                   "rubber.youngs_modulus",
+                                   "rubber.shear_modulus",
+                                   "validity.smallest_stretch",
+                                   "validity.largest_stretch",
+                                   "about.contradictions",
+                                   "about.statement"};
+    for (const std::string& key : known_) known.insert(dotted("law", key));
+    for (const AboutText& each : about_texts) known.insert(dotted("about", each.key));
+    for (const Range& each : ranges)
+      known.insert({dotted("validity", each.first), dotted("validity", each.last)});
     for (const auto& [section, content] : table()) {
       if (section.str() == "test") continue;
       if (!content.is_table())
         fail(int(content.source().begin.line), std::string(section.str()), "", "no such key",
              "remove it");
-      for (const auto& [key, value] : *content.as_table()) {
-        const std::string full = dotted(section.str(), key.str());
-        if (others.contains(full) ||
-            (section.str() == "law" && known_.contains(std::string(key.str()))))
-          continue;
-        fail(int(value.source().begin.line), full, "", "no such key", "remove it");
-      }
+      for (const auto& [key, value] : *content.as_table())
+        if (const std::string full = dotted(section.str(), key.str()); !known.contains(full))
+          fail(int(value.source().begin.line), full, "", "no such key", "remove it");
     }
   }
 
