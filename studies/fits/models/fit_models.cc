@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The stiffness of a ramp errs by the square of the samples' distance.
-constexpr int ramp_samples = 40;
+constexpr std::size_t ramp_samples = 40;
 
 /// What leaves out the values that lie beyond an indentation [m], as text to copy; empty where that
 /// leaves fewer than three. A press behind a rig is computed deeper than its values go.
@@ -78,9 +78,7 @@ class MeasuredPress final : public ForwardModel {
 std::unique_ptr<ForwardModel> ramp_model(lattice::PressSetup setup, const std::vector<double>& time,
                                          const std::function<bool()>& go_on) {
   const double depth = setup.protocol.depth;
-  setup.protocol.samples.clear();
-  for (int i = 1; i <= ramp_samples; ++i)
-    setup.protocol.samples.push_back(depth * i / ramp_samples);
+  setup.protocol.samples = even_depths(depth, ramp_samples);
   const auto press = lattice::run_static_press(
       setup, [&](const lattice::StaticOutcome&, double) { return go_on(); });
   return std::make_unique<calibration::RampModel>(
@@ -161,6 +159,10 @@ calibration::Curve over_indentation(const FitCurve& curve, const Eigen::VectorXd
   return result;
 }
 
+ordered_json quantity_inputs(const calibration::FitQuantity& quantity) {
+  return quantity.place ? ordered_json{{"free", *quantity.place}} : ordered_json(quantity.value);
+}
+
 }  // namespace
 
 ordered_json curve_inputs(const FitInput& input, std::size_t i) {
@@ -176,16 +178,12 @@ ordered_json curve_inputs(const FitInput& input, std::size_t i) {
   if (has_presses(input)) inputs["press"] = inputs_of(curve.press);
   for (const calibration::FitBranch& branch : input.branches)
     for (const calibration::FitQuantity& each : {branch.share, branch.time})
-      inputs["branches"].push_back(each.place ? ordered_json{{"free", *each.place}}
-                                              : ordered_json(each.value));
+      inputs["branches"].push_back(quantity_inputs(each));
   if (curve.travel) {
     inputs["time"] = curve.time;
     inputs["machine"] = curve.travel->machine;
-    for (const auto member : calibration::rig_members) {
-      const calibration::FitQuantity& each = curve.travel->rig.*member;
-      inputs["rig"].push_back(each.place ? ordered_json{{"free", *each.place}}
-                                         : ordered_json(each.value));
-    }
+    for (const auto member : calibration::rig_members)
+      inputs["rig"].push_back(quantity_inputs(curve.travel->rig.*member));
   }
   if (curve.kind == CurveKind::continuum)
     inputs["continuum"] = reference_job(curve.continuum).key();

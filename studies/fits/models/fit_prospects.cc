@@ -218,9 +218,8 @@ FitInput made_anew(const FitInput& input, double depth) {
   curve.press = first.press;
   curve.travel = first.travel;
   curve.is_travel = first.travel.has_value();
-  const std::size_t count = first.x.size();
-  for (std::size_t k = 1; k <= count; ++k) curve.x.push_back(depth * double(k) / double(count));
-  if (first.time.size() == count)
+  curve.x = even_depths(depth, first.x.size());
+  if (first.time.size() == curve.x.size())
     for (const double time : first.time) curve.time.push_back(time - first.time.front());
   again.options.free.assign(
       input.options.free.begin(),

@@ -7,6 +7,7 @@
 #include "calibration/surrogate/surrogate.h"
 #include "meshes/tables/fields_json.h"
 #include "source_hash.h"
+#include "studies/fits/models/travel.h"
 #include "studies/jobs/json_file.h"
 #include "studies/presses/press_record.h"
 
@@ -20,14 +21,7 @@ using calibration::MaterialParameter;
 using calibration::SurrogateSample;
 using nlohmann::ordered_json;
 
-constexpr int sample_count = 32;
-
-lattice::PressSetup sampled(lattice::PressSetup setup) {
-  setup.protocol.samples.clear();
-  for (int i = 1; i <= sample_count; ++i)
-    setup.protocol.samples.push_back(setup.protocol.depth * i / sample_count);
-  return setup;
-}
+constexpr std::size_t sample_count = 32;
 
 /// Of the press with the parameters as they stand in `setup`; without parameters the force alone.
 calibration::CurveSlopes answer(const lattice::PressSetup& setup,
@@ -71,7 +65,8 @@ void run_surrogate(const lattice::PressSetup& setup, const ForceUncertainty& unc
 }  // namespace
 
 Job surrogate_job(const lattice::PressSetup& press, const ForceUncertainty& uncertainty) {
-  const lattice::PressSetup setup = sampled(press);
+  lattice::PressSetup setup = press;
+  setup.protocol.samples = even_depths(press.protocol.depth, sample_count);
   std::vector<std::string> names;
   for (const MaterialParameter parameter : uncertainty.parameters)
     names.emplace_back(calibration::name(parameter));

@@ -31,14 +31,6 @@ std::vector<std::string> settings_in(std::string_view condition) {
 
 namespace {
 
-/// Samples 1/n, 2/n ... 1 of the depth.
-std::string even_samples(double depth, int count) {
-  std::string list;
-  for (int i = 1; i <= count; ++i)
-    list += (i > 1 ? ", \"" : "\"") + meshes::to_text(depth * i / count) + " m\"";
-  return "press.samples=[" + list + "]";
-}
-
 /// A condition says how a press is done: what it is done with is common to all curves.
 void check_condition(const LoadedConfig& loaded, const std::vector<std::string>& sets) {
   for (const std::string& setting : sets) {
@@ -153,9 +145,10 @@ void add_continuum_curves(FitSetup& fit, const LoadedConfig& loaded) {
   fit.input.rubber_known = true;
   const bool moving = settings.problem == CalibrationProblem::damping;
   for (const std::string& condition : conditions_of(loaded)) {
-    const LoadedConfig own = under(loaded, settings_in(condition),
-                                   {moving ? "press.mode=quasi-static" : "press.mode=static",
-                                    even_samples(settings.depth, settings.points)});
+    const LoadedConfig own =
+        under(loaded, settings_in(condition),
+              {moving ? "press.mode=quasi-static" : "press.mode=static",
+               samples_setting(even_depths(settings.depth, std::size_t(settings.points)))});
     Curve curve;
     curve.x = own.config.press.protocol.samples;
     if (moving) {

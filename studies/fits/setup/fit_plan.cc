@@ -23,12 +23,6 @@ namespace {
 constexpr double ball_share = 0.4, ball_depth = 0.5;
 constexpr double deep_factor = 1.5, shallow_factor = 0.5;
 
-std::vector<double> even_depths(double depth, std::size_t count) {
-  std::vector<double> depths;
-  for (std::size_t i = 1; i <= count; ++i) depths.push_back(depth * double(i) / double(count));
-  return depths;
-}
-
 std::string in_words(const std::string& press, double depth) {
   return fmt::format("{}, to {:.3g} m", press, depth);
 }
