@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "meshes/base/files.h"
+#include "meshes/base/words.h"
 
 namespace fingertip::calibration::inline material_tests {
 
@@ -29,23 +30,11 @@ bool right_length(std::size_t length, std::size_t points) {
 }  // namespace
 
 std::string_view name(TestKind kind) {
-  switch (kind) {
-    case TestKind::uniaxial: return "uniaxial";
-    case TestKind::equibiaxial: return "equibiaxial";
-    case TestKind::planar: return "planar";
-    case TestKind::simple_shear: return "simple-shear";
-    case TestKind::volumetric: return "volumetric";
-  }
-  return "unknown";
+  return meshes::word_of(kind, {"uniaxial", "equibiaxial", "planar", "simple-shear", "volumetric"});
 }
 
 std::string_view name(DeformationMode mode) {
-  switch (mode) {
-    case DeformationMode::tension: return "tension";
-    case DeformationMode::compression: return "compression";
-    case DeformationMode::shear: return "shear";
-  }
-  return "unknown";
+  return meshes::word_of(mode, {"tension", "compression", "shear"});
 }
 
 DeformationMode mode_of(TestKind kind, double deformation) {
@@ -59,12 +48,7 @@ std::string_view name(StressMeasure measure) {
 }
 
 std::string_view name(TestCourse course) {
-  switch (course) {
-    case TestCourse::slow: return "slow";
-    case TestCourse::relaxation: return "relaxation";
-    case TestCourse::cycles: return "cycles";
-  }
-  return "unknown";
+  return meshes::word_of(course, {"slow", "relaxation", "cycles"});
 }
 
 double StrainPath::at(double when) const {

@@ -1,16 +1,12 @@
 #include "lattice/dynamics/integrator.h"
 
+#include "meshes/base/words.h"
+
 namespace fingertip::lattice::inline dynamics {
 
 std::string_view name(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::symplectic_euler: return "symplectic-euler";
-    case Integrator::explicit_euler: return "explicit-euler";
-    case Integrator::runge_kutta: return "runge-kutta";
-    case Integrator::mass_scaled: return "mass-scaled";
-    case Integrator::energy_controlled: return "energy-controlled";
-  }
-  return {};
+  return meshes::word_of(integrator, {"symplectic-euler", "explicit-euler", "runge-kutta",
+                                      "mass-scaled", "energy-controlled"});
 }
 
 bool is_adaptive(Integrator integrator) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "meshes/base/files.h"
+#include "meshes/base/words.h"
 
 namespace fingertip::lattice::inline grasp {
 
@@ -287,13 +288,7 @@ GraspOutcome Grasp::run() {
 }  // namespace
 
 std::string_view name(GraspFate fate) {
-  switch (fate) {
-    case GraspFate::held: return "held";
-    case GraspFate::dropped: return "dropped";
-    case GraspFate::not_lifted: return "not lifted";
-    case GraspFate::unfinished: break;
-  }
-  return "unfinished";
+  return meshes::word_of(fate, {"unfinished", "held", "dropped", "not lifted"});
 }
 
 std::vector<meshes::Violation> GraspSetup::violations() const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "meshes/base/files.h"
+#include "meshes/base/words.h"
 
 namespace fingertip::lattice::inline grasp {
 
@@ -56,15 +57,7 @@ double GripSettings::lift_acceleration() const {
 }
 
 std::string_view name(GripPhase phase) {
-  switch (phase) {
-    case GripPhase::squeeze: return "squeeze";
-    case GripPhase::load: return "load";
-    case GripPhase::lift: return "lift";
-    case GripPhase::hold: return "hold";
-    case GripPhase::release: return "release";
-    case GripPhase::done: break;
-  }
-  return "done";
+  return meshes::word_of(phase, {"squeeze", "load", "lift", "hold", "release", "done"});
 }
 
 void GripControl::enter(GripPhase phase, double time) {

@@ -2,16 +2,12 @@
 
 #include <cmath>
 
+#include "meshes/base/words.h"
+
 namespace fingertip::lattice::inline model {
 
 std::string_view name(ModelKind kind) {
-  switch (kind) {
-    case ModelKind::published: return "published";
-    case ModelKind::central: return "central";
-    case ModelKind::hookean: return "hookean";
-    case ModelKind::network: return "network";
-  }
-  return "unknown";
+  return meshes::word_of(kind, {"published", "central", "hookean", "network"});
 }
 
 std::string_view name(Kinematics kinematics) {

@@ -9,6 +9,7 @@
 #include "lattice/model/formulation.h"
 #include "lattice/statics/cut_lattice.h"
 #include "meshes/base/errors.h"
+#include "meshes/base/words.h"
 
 namespace fingertip::lattice::inline press {
 
@@ -95,17 +96,8 @@ void scale(double factor, std::vector<Element>& elements) {
 }  // namespace
 
 std::string_view name(PressParameter parameter) {
-  switch (parameter) {
-    case PressParameter::k1: return "k1";
-    case PressParameter::k2: return "k2";
-    case PressParameter::k3: return "k3";
-    case PressParameter::kappa: return "kappa";
-    case PressParameter::shear_modulus: return "shear_modulus";
-    case PressParameter::lambda: return "lambda";
-    case PressParameter::bond: return "bond";
-    case PressParameter::contact: return "contact";
-  }
-  return "unknown";
+  return meshes::word_of(parameter,
+                         {"k1", "k2", "k3", "kappa", "shear_modulus", "lambda", "bond", "contact"});
 }
 
 std::vector<PressParameter> press_parameters(const LatticeSettings& settings) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "meshes/base/words.h"
 #include "meshes/shape/meridian.h"
 
 namespace fingertip::studies::inline live {
@@ -88,13 +89,8 @@ Json limits_json(const LiveLimits& limits) {
   return json;
 }
 
-const char* name(LiveStatus status) {
-  switch (status) {
-    case LiveStatus::running: return "running";
-    case LiveStatus::paused: return "paused";
-    case LiveStatus::failed: break;
-  }
-  return "failed";
+std::string_view name(LiveStatus status) {
+  return meshes::word_of(status, {"running", "paused", "failed"});
 }
 
 std::string text_of(const Json& json) {

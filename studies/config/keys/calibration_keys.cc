@@ -1,39 +1,22 @@
 /// The keys of [calibration].
 #include "calibration/material_tests/law_model.h"
+#include "meshes/base/words.h"
 #include "studies/config/keys/key_builders.h"
 #include "studies/config/keys/key_sections.h"
 
 namespace fingertip::studies::inline config::inline keys {
 
 std::string_view name(CalibrationProblem problem) {
-  switch (problem) {
-    case CalibrationProblem::moduli: return "moduli";
-    case CalibrationProblem::curve: return "curve";
-    case CalibrationProblem::experiment: return "experiment";
-    case CalibrationProblem::finite_strain: return "finite-strain";
-    case CalibrationProblem::damping: return "damping";
-    case CalibrationProblem::material: return "material";
-  }
-  return "unknown";
+  return meshes::word_of(problem,
+                         {"moduli", "curve", "experiment", "finite-strain", "damping", "material"});
 }
 
 std::string_view name(ShapeKind shape) {
-  switch (shape) {
-    case ShapeKind::dome: return "dome";
-    case ShapeKind::profile: return "profile";
-    case ShapeKind::solid: return "solid";
-  }
-  return "unknown";
+  return meshes::word_of(shape, {"dome", "profile", "solid"});
 }
 
 std::string_view name(ConstantsSource source) {
-  switch (source) {
-    case ConstantsSource::automatic: return "auto";
-    case ConstantsSource::rule: return "rule";
-    case ConstantsSource::calibrated: return "calibrated";
-    case ConstantsSource::file: return "file";
-  }
-  return "unknown";
+  return meshes::word_of(source, {"auto", "rule", "calibrated", "file"});
 }
 
 std::string_view name(ForwardKind forward) {
@@ -41,12 +24,7 @@ std::string_view name(ForwardKind forward) {
 }
 
 std::string_view name(IntervalKind kind) {
-  switch (kind) {
-    case IntervalKind::automatic: return "auto";
-    case IntervalKind::linear: return "linear";
-    case IntervalKind::profile: return "profile";
-  }
-  return "unknown";
+  return meshes::word_of(kind, {"auto", "linear", "profile"});
 }
 
 namespace {

@@ -1,19 +1,12 @@
 /// The keys of [controller] and [hardware].
+#include "meshes/base/words.h"
 #include "studies/config/keys/key_builders.h"
 #include "studies/config/keys/key_sections.h"
 
 namespace fingertip::studies::inline config::inline keys {
 
 std::string_view name(ControllerKind kind) {
-  switch (kind) {
-    case ControllerKind::pid: return "pid";
-    case ControllerKind::adaptive: return "adaptive";
-    case ControllerKind::force: return "force";
-    case ControllerKind::hybrid: return "hybrid";
-    case ControllerKind::library: return "library";
-    case ControllerKind::socket: return "socket";
-  }
-  return "unknown";
+  return meshes::word_of(kind, {"pid", "adaptive", "force", "hybrid", "library", "socket"});
 }
 
 namespace {
