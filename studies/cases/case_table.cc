@@ -64,16 +64,13 @@ const std::map<std::string, bool CaseRun::*>& run_flags() {
 
 /// "key=literal". A file that a value names is relative to the folder of the case.
 std::string setting(const std::string& key, const toml::node& value, const fs::path& base) {
-  const std::string literal = toml_literal(value);
   const Key* known = find_key(key);
-  if (known == nullptr) return key + "=" + literal;
   try {
-    Value read = read_value(*known, value);
-    locate_files(*known, base, read);
-    return key + "=" + located_literal(*known, read, literal);
+    if (known != nullptr) return key + "=" + read(*known, value, base).literal;
   } catch (const UnitError&) {
-    return key + "=" + literal;  // told when the variant is loaded
+    // Told when the variant is loaded.
   }
+  return key + "=" + toml_literal(value);
 }
 
 /// Reads [case], collecting problems with their line.

@@ -12,33 +12,9 @@ namespace fingertip::studies::inline config {
 
 namespace {
 
-std::string_view kind_name(const Key& key) {
-  switch (key.kind) {
-    case Kind::quantity: return "quantity";
-    case Kind::quantities: return "list of quantities";
-    case Kind::terms:
-      return key.number_first ? "list of pairs of a number and a quantity"
-                              : "list of pairs of a quantity and a number";
-    case Kind::stages: return "list of pairs [indentation, speed] or [hold, duration]";
-    case Kind::number: return "number";
-    case Kind::numbers: return "list of 3 numbers";
-    case Kind::integer: return "integer";
-    case Kind::boolean: return "true or false";
-    case Kind::number_pair: return "list of 2 numbers";
-    case Kind::choice: return "word";
-    case Kind::source: return "word or path";
-    case Kind::text: return "text";
-    case Kind::file: return "path";
-    case Kind::texts: return "list of texts";
-    case Kind::files: return "list of paths";
-    case Kind::fields: return "table";
-  }
-  return "";
-}
-
 /// "Pa; > 0 Pa; greater than youngs_modulus/3": unit, range and rule in one line.
 std::string constraints(const Key& key) {
-  std::string text(kind_name(key));
+  std::string text = key.description();
   if (key.kind == Kind::quantities && !key.word.empty()) text += " or \"" + key.word + '"';
   for (const Field& field : key.fields)
     text += (&field == &key.fields.front() ? " of " : ", ") + field.name + " [" +
@@ -102,10 +78,7 @@ nlohmann::json element_schema(const Key& key) {
 
 nlohmann::json key_schema(const Key& key) {
   nlohmann::json schema = element_schema(key);
-  const bool list = key.kind == Kind::quantities || key.kind == Kind::terms ||
-                    key.kind == Kind::stages || key.kind == Kind::texts ||
-                    key.kind == Kind::files || key.kind == Kind::numbers ||
-                    key.kind == Kind::number_pair;
+  const bool list = key.takes_list();
   if (list) schema = {{"type", "array"}, {"items", schema}};
   const std::size_t length = key.kind == Kind::numbers       ? 3
                              : key.kind == Kind::number_pair ? 2
@@ -158,7 +131,7 @@ std::string config_template() {
 
 std::string explanation(const Key& key) {
   std::string text =
-      fmt::format("{}\n  {}\n  kind:    {}{}\n", key.full_name(), key.help, kind_name(key),
+      fmt::format("{}\n  {}\n  kind:    {}{}\n", key.full_name(), key.help, key.description(),
                   key.unit.empty() ? "" : " (any unit of the dimension of " + key.unit + ")");
   if (key.choices.empty() && !key.allowed().empty()) {
     text += fmt::format("  allowed: {}\n", key.allowed());

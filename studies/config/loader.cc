@@ -26,11 +26,11 @@ namespace {
 /// Collects values and problems from all sources.
 class Reader {
  public:
+  /// Begins with the defaults, which are read once.
   Reader() {
-    for (const Key& key : key_table()) {
-      const toml::table defaults = toml::parse("v = " + key.preset);
-      take(key, *defaults.get("v"), {default_literal(key), default_place, false}, {});
-    }
+    static const Reader defaults(key_table());
+    loaded_ = defaults.loaded_;
+    loaded_.material = std::make_shared<std::optional<calibration::Material>>();
   }
 
   void read_file(const std::filesystem::path& file);
@@ -41,35 +41,38 @@ class Reader {
   LoadedConfig finish();
 
  private:
+  explicit Reader(const std::vector<Key>& keys) {
+    for (const Key& key : keys)
+      take(key, *parsed_literal(key.preset).get("v"), default_place, false, {});
+  }
   void resolve_shape();
   void resolve_card();
-  void resolve_continuum_law();
+  void check_continuum_law();
   /// Files named by a value are relative to `base`: the configuration file's folder.
-  void take(const Key& key, const toml::node& node, Entry entry, const std::filesystem::path& base);
+  void take(const Key& key, const toml::node& node, const std::string& place, bool given,
+            const std::filesystem::path& base);
   void read_section(const std::string& section, const toml::node& node,
                     const std::filesystem::path& file);
-  void unknown(const std::string& place, const std::string& name, const std::string& value,
-               const std::string& what) {
+  void unknown(const std::string& place, const std::string& name, const std::string& value) {
     problems_.push_back(
-        {place, name, value, "unknown " + what, "the nearest valid key is " + nearest_key(name)});
+        {place, name, value, "unknown key", "the nearest valid key is " + nearest_key(name)});
   }
 
   LoadedConfig loaded_;
   std::vector<Problem> problems_;
 };
 
-void Reader::take(const Key& key, const toml::node& node, Entry entry,
+void Reader::take(const Key& key, const toml::node& node, const std::string& place, bool given,
                   const std::filesystem::path& base) {
   const std::string name = key.full_name();
+  Entry& entry = loaded_.entries[name] = {toml_literal(node), place, given};
   try {
-    Value value = read_value(key, node);
-    locate_files(key, base, value);
-    entry.literal = located_literal(key, value, entry.literal);
-    key.assign(loaded_.config, value);
+    Reading reading = read(key, node, base);
+    entry.literal = std::move(reading.literal);
+    key.assign(loaded_.config, reading.value);
   } catch (const UnitError& error) {
-    problems_.push_back({entry.place, name, unquoted(entry.literal), error.rule, error.remedy});
+    problems_.push_back({place, name, unquoted(entry.literal), error.rule, error.remedy});
   }
-  loaded_.entries[name] = std::move(entry);
 }
 
 void Reader::read_section(const std::string& section, const toml::node& node,
@@ -89,11 +92,10 @@ void Reader::read_section(const std::string& section, const toml::node& node,
   }
   for (const auto& [name, value] : *table) {
     const std::string full_name = section + "." + std::string(name.str());
-    const std::string literal = toml_literal(value);
     if (const Key* key = find_key(full_name)) {
-      take(*key, value, {literal, place(value), true}, file.parent_path());
+      take(*key, value, place(value), true, file.parent_path());
     } else {
-      unknown(place(value), full_name, unquoted(literal), "key");
+      unknown(place(value), full_name, unquoted(toml_literal(value)));
     }
   }
 }
@@ -141,19 +143,12 @@ void Reader::read_set(const std::string& text) {
 
 void Reader::read_assignment(const std::string& place, const std::string& name,
                              const std::string& value) {
-  toml::table parsed;
-  try {
-    if (!calibration::nests_too_deep(value)) parsed = toml::parse("v = " + value);
-  } catch (const toml::parse_error&) {
-    parsed.clear();
-  }
-  // A text with line breaks could smuggle in further keys: then it is no literal, either.
-  if (parsed.size() != 1) parsed = toml::table{{"v", value}};
-  const toml::node& node = *parsed.get("v");
+  toml::table parsed = parsed_literal(value);
+  if (parsed.empty()) parsed = toml::table{{"v", value}};
   if (const Key* key = find_key(name)) {
-    take(*key, node, {toml_literal(node), place, true}, {});
+    take(*key, *parsed.get("v"), place, true, {});
   } else {
-    unknown(place, name, value, "key");
+    unknown(place, name, value);
   }
 }
 
@@ -221,7 +216,7 @@ void Reader::resolve_card() {
       if (known.given && name == "rubber.relaxation" && known.literal == "[]") continue;
       if (!known.given) {
         read_assignment(config.card.string(), name, literal);
-      } else if (known.literal != toml_literal(*toml::parse("v = " + literal).get("v"))) {
+      } else if (known.literal != toml_literal(*parsed_literal(literal).get("v"))) {
         problems_.push_back({known.place, name, unquoted(known.literal),
                              "the card " + config.card.filename().string() + " says " + literal,
                              "leave one of the two out"});
@@ -239,18 +234,15 @@ void Reader::resolve_card() {
 }
 
 /// The older key changes what a change of volume costs in the continuum alone.
-void Reader::resolve_continuum_law() {
-  const ContinuumLaw law = loaded_.config.continuum_law;
-  if (law == ContinuumLaw::a) return;
-  meshes::StrainEnergy& energy = loaded_.config.reference.rubber.energy;
-  if (energy != meshes::StrainEnergy()) {
-    const Entry& entry = loaded_.entries.at("reference.law");
-    problems_.push_back({entry.place, "reference.law", unquoted(entry.literal),
-                         "means a neo-Hookean rubber with volumetric = logarithmic",
-                         "leave it out and give rubber.law and rubber.volumetric"});
-  }
-  energy.volumetric = law == ContinuumLaw::b ? meshes::VolumetricLaw::full_quadratic
-                                             : meshes::VolumetricLaw::isochoric_logarithmic;
+void Reader::check_continuum_law() {
+  const Config& config = loaded_.config;
+  if (config.continuum_law == ContinuumLaw::a ||
+      config.press.rubber.energy == meshes::StrainEnergy())
+    return;
+  const Entry& entry = loaded_.entries.at("reference.law");
+  problems_.push_back({entry.place, "reference.law", unquoted(entry.literal),
+                       "means a neo-Hookean rubber with volumetric = logarithmic",
+                       "leave it out and give rubber.law and rubber.volumetric"});
 }
 
 LoadedConfig Reader::finish() {
@@ -273,10 +265,7 @@ LoadedConfig Reader::finish() {
   const meshes::PressProtocol& protocol = press.protocol;
   choose_for_finger(loaded_);
   resolve_depths(loaded_, problems_);
-  config.reference.geometry = press.geometry;
-  config.reference.rubber = press.rubber;
-  resolve_continuum_law();
-  config.reference.protocol = protocol;
+  check_continuum_law();
 
   std::vector<meshes::Violation> broken = press.rubber.violations();
   // Without its file the finger is still the dome: rules about it mean nothing.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "calibration/files/toml_depth.h"
 #include "meshes/base/files.h"
 #include "studies/config/text/trimmed.h"
 #include "studies/config/text/units.h"
@@ -52,6 +53,10 @@ double number_in(const toml::node& node) {
   return *number;
 }
 
+bool is_pattern(const std::string& word) {
+  return word.find('/') != word.npos;
+}
+
 /// "tip_radius/12" against the pattern "tip_radius/N": the number N.
 double read_fraction(const Key& key, const std::string& text) {
   const std::string prefix = key.word.substr(0, key.word.find('N'));
@@ -73,12 +78,7 @@ Value read_quantity(const Key& key, const toml::node& node) {
     refuse("the unit is missing", "write it as \"" + key.example() + "\"");
   }
   Value value;
-  const bool is_pattern = key.word.find('/') != key.word.npos;
-  if (!key.word.empty() && !is_pattern && text->get() == key.word) {
-    value.word = key.word;
-    return value;
-  }
-  if (is_pattern && text->get().starts_with(key.word.substr(0, key.word.find('N')))) {
+  if (is_pattern(key.word) && text->get().starts_with(key.word.substr(0, key.word.find('N')))) {
     value.word = key.word;
     value.number = read_fraction(key, text->get());
     return value;
@@ -89,17 +89,13 @@ Value read_quantity(const Key& key, const toml::node& node) {
 }
 
 Value read_quantities(const Key& key, const toml::node& node) {
-  Value value;
-  if (!key.word.empty() && node.value<std::string>() == key.word) {
-    value.word = key.word;
-    return value;
-  }
   const auto* list = node.as_array();
   if (list == nullptr)
     refuse("must be a list of quantities" + (key.word.empty() ? "" : ", or \"" + key.word + '"'),
            "write e.g. [\"" + key.example() + "\"]");
   if (key.length > 0 && list->size() != key.length)
     refuse("must be a list of " + std::to_string(key.length) + " quantities", preset_advice(key));
+  Value value;
   Key each = key;
   each.word.clear();
   for (const toml::node& element : *list) {
@@ -172,39 +168,25 @@ Value read_stages(const toml::node& node) {
 }
 
 Value read_number(const Key& key, const toml::node& node) {
-  Value value;
-  if (!key.word.empty() && node.value<std::string>() == key.word) {
-    value.word = key.word;
-    return value;
-  }
   if (!node.is_number())
     refuse("must be a number without quotes or unit" +
                (key.word.empty() ? "" : ", or \"" + key.word + '"') +
                (key.rule.empty() ? "" : " (" + key.rule + ')'),
            number_advice(key, node));
+  Value value;
   value.number = number_in(node);
   check_range(key, value.number);
   return value;
 }
 
 Value read_numbers(const Key& key, const toml::node& node) {
+  const std::size_t length = key.kind == Kind::number_pair ? 2 : 3;
   const auto* list = node.as_array();
-  if (list == nullptr || list->size() != 3)
-    refuse("must be a list of 3 numbers", preset_advice(key));
-  Value value;
-  for (const toml::node& element : *list) {
-    value.numbers.push_back(read_number(key, element).number);
-  }
-  return value;
-}
-
-Value read_number_pair(const Key& key, const toml::node& node) {
-  const auto* list = node.as_array();
-  if (list == nullptr || list->size() != 2)
-    refuse("must be a list of 2 numbers", preset_advice(key));
+  if (list == nullptr || list->size() != length)
+    refuse("must be a list of " + std::to_string(length) + " numbers", preset_advice(key));
   Value value;
   for (const toml::node& element : *list) value.numbers.push_back(read_number(key, element).number);
-  if (!(value.numbers[0] < value.numbers[1]))
+  if (key.kind == Kind::number_pair && !(value.numbers[0] < value.numbers[1]))
     refuse("the first number must be the smaller one", preset_advice(key));
   return value;
 }
@@ -306,58 +288,75 @@ Value read_word(const Key& key, const toml::node& node) {
   return value;
 }
 
-}  // namespace
-
 Value read_value(const Key& key, const toml::node& node) {
-  Value value;
+  const bool takes_word = !key.word.empty() && !is_pattern(key.word);
+  if (takes_word && node.value<std::string>() == key.word) {
+    Value value;
+    value.word = key.word;
+    return value;
+  }
   switch (key.kind) {
     case Kind::quantity: return read_quantity(key, node);
     case Kind::quantities: return read_quantities(key, node);
     case Kind::terms: return read_terms(key, node);
     case Kind::stages: return read_stages(node);
     case Kind::fields: return read_fields(key, node);
+    case Kind::integer:
+      if (!node.is_integer()) refuse("must be an integer", preset_advice(key));
+      [[fallthrough]];
     case Kind::number: return read_number(key, node);
-    case Kind::numbers: return read_numbers(key, node);
-    case Kind::number_pair: return read_number_pair(key, node);
+    case Kind::numbers:
+    case Kind::number_pair: return read_numbers(key, node);
     case Kind::choice:
     case Kind::source: return read_word(key, node);
     case Kind::text:
     case Kind::file: return read_text(key, node);
     case Kind::texts:
     case Kind::files: return read_texts(key, node);
-    case Kind::integer:
-      if (!node.is_integer()) refuse("must be an integer", preset_advice(key));
-      return read_number(key, node);
-    case Kind::boolean:
-      if (!node.is_boolean()) refuse("must be true or false", preset_advice(key));
-      value.number = *node.value<bool>() ? 1.0 : 0.0;
+    case Kind::boolean: break;
   }
+  if (!node.is_boolean()) refuse("must be true or false", preset_advice(key));
+  Value value;
+  value.number = *node.value<bool>() ? 1.0 : 0.0;
   return value;
 }
 
-void locate_files(const Key& key, const std::filesystem::path& base, Value& value) {
+}  // namespace
+
+Reading read(const Key& key, const toml::node& node, const std::filesystem::path& base) {
+  Reading reading{read_value(key, node), toml_literal(node)};
+  Value& value = reading.value;
   const auto locate = [&](std::string& file) {
     file = std::filesystem::absolute(base / file).lexically_normal().string();
   };
-  if (key.kind == Kind::source && !is_choice(key, value.word)) locate(value.word);
-  const bool may_be_file = key.kind == Kind::file || key.kind == Kind::fields;
-  if (may_be_file && !value.word.empty()) locate(value.word);
-  if (key.kind == Kind::files) std::ranges::for_each(value.words, locate);
+  if (key.kind == Kind::files) {
+    toml::array files;
+    for (std::string& file : value.words) locate(file), files.push_back(file);
+    reading.literal = toml_literal(files);
+  } else if (key.kind == Kind::fields && !value.word.empty()) {
+    locate(value.word);
+    toml::table whole = *node.as_table();
+    for (const Field& field : key.fields)
+      if (field.unit.empty()) whole.insert_or_assign(field.name, value.word);
+    reading.literal = toml_literal(whole);
+  } else if (key.kind == Kind::source || key.kind == Kind::file) {
+    if (!value.word.empty() && !is_choice(key, value.word)) locate(value.word);
+    reading.literal = toml_literal(toml::value<std::string>(value.word));
+  }
+  return reading;
 }
 
-std::string located_literal(const Key& key, const Value& value, const std::string& literal) {
-  if (key.kind == Kind::source || key.kind == Kind::file)
-    return toml_literal(toml::value<std::string>(value.word));
-  if (key.kind == Kind::fields && !value.word.empty()) {
-    toml::table whole = toml::parse("v = " + literal);
-    for (const Field& field : key.fields)
-      if (field.unit.empty()) whole["v"].as_table()->insert_or_assign(field.name, value.word);
-    return toml_literal(*whole.get("v"));
+toml::table parsed_literal(const std::string& text) {
+  try {
+    if (!calibration::nests_too_deep(text)) {
+      toml::table parsed = toml::parse("v = " + text);
+      // A text with line breaks could smuggle in further keys.
+      if (parsed.size() == 1) return parsed;
+    }
+  } catch (const toml::parse_error&) {
+    // No literal.
   }
-  if (key.kind != Kind::files) return literal;
-  toml::array files;
-  for (const std::string& file : value.words) files.push_back(file);
-  return toml_literal(files);
+  return {};
 }
 
 std::string toml_literal(const toml::node& node) {
@@ -403,7 +402,7 @@ std::string unquoted(const std::string& literal) {
 }
 
 std::string default_literal(const Key& key) {
-  return toml_literal(*toml::parse("v = " + key.preset).get("v"));
+  return toml_literal(*parsed_literal(key.preset).get("v"));
 }
 
 }  // namespace fingertip::studies::inline config

@@ -10,15 +10,19 @@
 
 namespace fingertip::studies::inline config {
 
-/// Throws UnitError (rule and remedy) when the node is not what `key` declares, is not finite or
-/// lies outside the key's range.
-Value read_value(const Key& key, const toml::node& node);
+/// What a user has written for a key.
+struct Reading {
+  Value value;
+  std::string literal;
+};
 
-/// Makes the files that a value of `key` names absolute, seen from the folder `base`.
-void locate_files(const Key& key, const std::filesystem::path& base, Value& value);
+/// The files that it names are absolute then, seen from the folder `base`. Throws UnitError (rule
+/// and remedy) when the node is not what `key` declares, is not finite or lies outside the key's
+/// range.
+Reading read(const Key& key, const toml::node& node, const std::filesystem::path& base = {});
 
-/// The value's literal where `key` names files, now absolute; else `literal`.
-std::string located_literal(const Key& key, const Value& value, const std::string& literal);
+/// The value of a literal, as "v"; empty for what is no literal.
+toml::table parsed_literal(const std::string& text);
 
 /// The node as TOML text on one line: "40 gf/cm^2" in quotes, [0.0, 0.5, 0.0], true.
 std::string toml_literal(const toml::node& node);

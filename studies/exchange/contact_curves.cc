@@ -71,7 +71,7 @@ ContactCurves::ContactCurves(const LoadedConfig& loaded, Of of) {
   for (const Obstacle& obstacle : pressed(loaded.config, of)) {
     LoadedConfig own = loaded;
     fem_reference::ReferenceJob& reference = own.config.reference;
-    meshes::PressProtocol& protocol = reference.protocol;
+    meshes::PressProtocol& protocol = own.config.press.protocol;
     protocol.obstacle = obstacle;
     protocol.samples = depths_to(depth);
     reference.analysis = fem_reference::Analysis::static_press;

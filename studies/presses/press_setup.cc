@@ -177,15 +177,10 @@ void add_material(LatticeUse use, LoadedConfig& complete) {
                                                  : calibration::lattice_warnings(material, press);
   const std::string place = complete.config.constants_file.filename().string() + ": ";
   for (const std::string& warning : warnings) complete.notes.push_back(place + warning);
-  // The stiffness is the material's, of the lattice and of the continuum beside it.
-  meshes::Rubber& continuum = complete.config.reference.rubber;
-  continuum.density = press.rubber.density;
-  continuum.retardation_time = press.rubber.retardation_time;
-  continuum.relaxation = press.rubber.relaxation;
-  for (meshes::Rubber* rubber : {&complete.config.press.rubber, &continuum}) {
-    rubber->youngs_modulus = material.rubber.youngs_modulus;
-    rubber->shear_modulus = material.rubber.shear_modulus;
-  }
+  // The stiffness is the material's, whatever was given.
+  meshes::Rubber& rubber = complete.config.press.rubber;
+  rubber.youngs_modulus = material.rubber.youngs_modulus;
+  rubber.shear_modulus = material.rubber.shear_modulus;
   choose_limits(complete);
 }
 
@@ -240,13 +235,14 @@ lattice::PressSetup free_press(ConfigSource source) {
 }
 
 fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded) {
-  std::vector<meshes::Violation> broken = loaded.config.reference.violations();
+  fem_reference::ReferenceJob job = loaded.config.continuum();
+  std::vector<meshes::Violation> broken = job.violations();
   for (meshes::Violation& violation : broken) {
     // About E and G together: the key that asks for finite strain names both.
     if (violation.key == "rubber") violation.key = "reference.strain";
   }
   if (!broken.empty()) throw loaded.locate(broken);
-  return loaded.config.reference;
+  return job;
 }
 
 fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
@@ -256,8 +252,8 @@ fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
   reference.analysis = fem_reference::Analysis::static_press;
   reference.strain = kinematics == lattice::Kinematics::finite ? fem_reference::Strain::finite
                                                                : fem_reference::Strain::linear;
-  reference.rubber.energy = loaded.config.press.rubber.energy;
   reference.write_fields = false;
+  own.config.continuum_law = ContinuumLaw::a;
   return continuum_setup(own);
 }
 

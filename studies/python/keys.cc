@@ -10,29 +10,6 @@ namespace py = pybind11;
 
 namespace {
 
-const char* name(Kind kind) {
-  using enum Kind;
-  switch (kind) {
-    case quantity: return "quantity";
-    case quantities: return "quantities";
-    case number: return "number";
-    case terms: return "terms";
-    case stages: return "stages";
-    case numbers: return "numbers";
-    case number_pair: return "number_pair";
-    case integer: return "integer";
-    case boolean: return "boolean";
-    case choice: return "choice";
-    case source: return "source";
-    case text: return "text";
-    case file: return "file";
-    case texts: return "texts";
-    case files: return "files";
-    case fields: return "fields";
-  }
-  return "";
-}
-
 py::dict told(const Key& key) {
   py::list choices;
   for (const Choice& choice : key.choices)

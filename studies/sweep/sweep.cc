@@ -26,16 +26,13 @@ const std::vector<std::string>& verbs() {
   return all;
 }
 
-bool takes_a_list(const Key& key) {
-  return key.kind == Kind::quantities || key.kind == Kind::numbers ||
-         key.kind == Kind::number_pair || key.kind == Kind::texts || key.kind == Kind::files;
-}
-
 /// Whether this value of `key` is a list of values for it.
 bool is_axis(const Key& key, const toml::node& node) {
   const toml::array* list = node.as_array();
   if (list == nullptr) return false;
-  return !takes_a_list(key) || (!list->empty() && list->front().is_array());
+  // Terms and stages are lists of lists.
+  if (!key.takes_list() || key.kind == Kind::terms || key.kind == Kind::stages) return true;
+  return !list->empty() && list->front().is_array();
 }
 
 /// Collects axes and problems.
@@ -90,14 +87,8 @@ class SweepReader {
     const auto equals = text.find('=');
     const Key* key = find_key(text.substr(0, equals));
     if (equals == text.npos || key == nullptr) return false;
-    toml::table parsed;
-    try {
-      if (calibration::nests_too_deep(text.substr(equals + 1))) return false;
-      parsed = toml::parse("v = " + text.substr(equals + 1));
-    } catch (const toml::parse_error&) {
-      return false;
-    }
-    if (parsed.size() != 1 || !is_axis(*key, *parsed.get("v"))) return false;
+    const toml::table parsed = parsed_literal(text.substr(equals + 1));
+    if (parsed.empty() || !is_axis(*key, *parsed.get("v"))) return false;
     take(*key, *parsed.get("v"), "--set " + text, {});
     return true;
   }
@@ -114,9 +105,7 @@ class SweepReader {
     values.clear();
     for (const toml::node& element : *node.as_array()) {
       try {
-        Value value = read_value(key, element);
-        locate_files(key, base, value);
-        const std::string literal = located_literal(key, value, toml_literal(element));
+        const std::string literal = read(key, element, base).literal;
         if (std::ranges::find(values, literal) == values.end()) values.push_back(literal);
       } catch (const UnitError& error) {
         problems.push_back(

@@ -157,7 +157,7 @@ void RealTimeRun::find_force_error(Session& session,
                                    const std::optional<meshes::PressResponse>& response) {
   record.force_error.reset();
   const LoadedConfig straight = pressed_straight(with_material(loaded, LatticeUse::modes));
-  if (!straight.config.reference.axisymmetric()) {
+  if (!straight.config.continuum().axisymmetric()) {
     record.force_error_of =
         "not known: the continuum of a finger that is no body of revolution takes long; reference "
         "and compare tell it";

@@ -125,6 +125,9 @@ std::vector<Key> calibration_keys() {
   const auto of_material = [](Key key) {
     return only_with("calibration.problem", {"material"}, std::move(key));
   };
+  const auto of_experiment = [](Key key) {
+    return only_with("calibration.problem", {"experiment"}, std::move(key));
+  };
   return {
       problem_key(),
       data_key(),
@@ -170,25 +173,21 @@ std::vector<Key> calibration_keys() {
           "of one if it has none; or relaxation_g1, relaxation_tau1 ...: some of them",
           {}),
       forward_key(),
-      only_with("calibration.problem", {"experiment"}, rig_key()),
-      only_with("calibration.problem", {"experiment"},
-                entry("noise", {0.0, 1.0, true},
-                      "relative standard deviation of the forces that calibrate --plan plans",
-                      &Order::noise)),
-      only_with("calibration.problem", {"experiment"},
-                quantity("calibration", "noise_force", "N", "N", not_negative,
-                         "standard deviation of these that is there whatever the force",
-                         at(&Config::calibration, &Order::noise_force))),
-      only_with("calibration.problem", {"experiment"}, candidates_key()),
-      only_with("calibration.problem", {"experiment"},
-                choice("calibration", "contact",
-                       {{"both", "where press.contact is not given, sticking and frictionless"},
-                        {"given", "press.contact, also where that is its default"}},
-                       "with which contacts measured presses are fitted",
-                       at(&Config::calibration, &Order::contact_as_given))),
-      only_with("calibration.problem", {"experiment"},
-                entry("machine", any, "name of the machine: files of one share a compliance",
-                      &Order::machine)),
+      of_experiment(rig_key()),
+      of_experiment(entry("noise", {0.0, 1.0, true},
+                          "relative standard deviation of the forces that calibrate --plan plans",
+                          &Order::noise)),
+      of_experiment(quantity("calibration", "noise_force", "N", "N", not_negative,
+                             "standard deviation of these that is there whatever the force",
+                             at(&Config::calibration, &Order::noise_force))),
+      of_experiment(candidates_key()),
+      of_experiment(choice("calibration", "contact",
+                           {{"both", "where press.contact is not given, sticking and frictionless"},
+                            {"given", "press.contact, also where that is its default"}},
+                           "with which contacts measured presses are fitted",
+                           at(&Config::calibration, &Order::contact_as_given))),
+      of_experiment(entry("machine", any, "name of the machine: files of one share a compliance",
+                          &Order::machine)),
       entry("prior", {0.0, 10.0, true},
             "relative standard deviation of constants about those of the moduli, ten times that "
             "for bond and contact; 0: no prior",
@@ -205,17 +204,16 @@ std::vector<Key> calibration_keys() {
             &Order::evaluations),
       entry("profile", any, "two free parameters to draw chi-square over, or none",
             &Order::profile),
-      only_with("calibration.problem", {"experiment"},
-                choice("calibration", "intervals",
-                       {{"auto",
-                         "profile where the modulus alone is sought of the rubber, which "
-                         "costs no press, else linear"},
-                        {"linear", "of the covariance at the estimates"},
-                        {"profile",
-                         "up to where chi-square, least over the other parameters, has "
-                         "risen: also where ellipses do not hold"}},
-                       "what 95 % intervals of parameters are",
-                       at(&Config::calibration, &Order::intervals))),
+      of_experiment(choice("calibration", "intervals",
+                           {{"auto",
+                             "profile where the modulus alone is sought of the rubber, which "
+                             "costs no press, else linear"},
+                            {"linear", "of the covariance at the estimates"},
+                            {"profile",
+                             "up to where chi-square, least over the other parameters, has "
+                             "risen: also where ellipses do not hold"}},
+                           "what 95 % intervals of parameters are",
+                           at(&Config::calibration, &Order::intervals))),
       entry(
           "bias", any,
           "run the continuum at the estimates, too, and tell what the lattice's error does to them",

@@ -212,12 +212,25 @@ struct Config {
   /// Scaled masses where they keep to a press's force, else press.integrator as it stands.
   bool automatic_integrator = false;
   ContinuumLaw continuum_law = ContinuumLaw::a;
-  fem_reference::ReferenceJob reference;
+  fem_reference::ReferenceJob reference;  ///< but for specimen and protocol, see continuum()
   CalibrationSettings calibration;
   ExchangeSettings exchange;
   lattice::GripSettings grip;
   lattice::BlockSettings block;
   double grasp_gravity = 9.80665;  ///< [m/s²]
+
+  /// The continuum's job: `reference` on the press's specimen, pressed as the lattice is.
+  fem_reference::ReferenceJob continuum() const {
+    fem_reference::ReferenceJob job = reference;
+    job.geometry = press.geometry;
+    job.rubber = press.rubber;
+    job.protocol = press.protocol;
+    if (continuum_law != ContinuumLaw::a)
+      job.rubber.energy.volumetric = continuum_law == ContinuumLaw::b
+                                         ? meshes::VolumetricLaw::full_quadratic
+                                         : meshes::VolumetricLaw::isochoric_logarithmic;
+    return job;
+  }
 };
 
 /// The model's own kinematics: published and network finite, central and hookean small.

@@ -4,6 +4,39 @@
 
 namespace fingertip::studies::inline config::inline keys {
 
+namespace {
+
+/// Of every kind, in the order of the enumeration.
+constexpr struct {
+  const char *name, *description;
+} kinds[] = {{"quantity", "quantity"},
+             {"quantities", "list of quantities"},
+             {"number", "number"},
+             {"terms", "list of pairs of a quantity and a number"},
+             {"stages", "list of pairs [indentation, speed] or [hold, duration]"},
+             {"numbers", "list of 3 numbers"},
+             {"number_pair", "list of 2 numbers"},
+             {"integer", "integer"},
+             {"boolean", "true or false"},
+             {"choice", "word"},
+             {"source", "word or path"},
+             {"text", "text"},
+             {"file", "path"},
+             {"texts", "list of texts"},
+             {"files", "list of paths"},
+             {"fields", "table"}};
+
+}  // namespace
+
+const char* name(Kind kind) {
+  return kinds[std::size_t(kind)].name;
+}
+
+std::string Key::description() const {
+  if (kind == Kind::terms && number_first) return "list of pairs of a number and a quantity";
+  return kinds[std::size_t(kind)].description;
+}
+
 std::string Key::example() const {
   if (kind == Kind::quantities || kind == Kind::terms)
     return unit == "Pa" ? "2 kPa" : unit == "rad" ? "10 deg" : unit == "s" ? "0.1 s" : "0.1 cm";

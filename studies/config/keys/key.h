@@ -29,6 +29,8 @@ enum class Kind {
   fields,       ///< table of Key::fields
 };
 
+const char* name(Kind kind);
+
 /// A value read from text, in SI.
 struct Value {
   double number = 0.0;          ///< quantity, number, integer, boolean (0 or 1)
@@ -80,6 +82,9 @@ struct Key {
   std::function<void(Config&, const Value&)> assign;
 
   std::string full_name() const { return section + "." + name; }
+  /// Of the kind: "list of quantities".
+  std::string description() const;
+  bool takes_list() const { return description().starts_with("list"); }
   /// A quantity text to quote in advice: the default, or "1 <unit>".
   std::string example() const;
   /// The allowed values in words: range, choices or nothing.

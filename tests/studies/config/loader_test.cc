@@ -139,14 +139,14 @@ TEST(Loader, ParametersFileReproducesEveryKey) {
   EXPECT_EQ(second.config.constants_file, folder / "material.toml");
   EXPECT_FALSE(second.config.reference.estimate_error);
   EXPECT_EQ(second.config.reference.strain, fingertip::fem_reference::Strain::finite);
-  EXPECT_EQ(second.config.reference.rubber.energy.volumetric,
+  EXPECT_EQ(second.config.continuum().rubber.energy.volumetric,
             fingertip::meshes::VolumetricLaw::isochoric_logarithmic);
   EXPECT_EQ(second.config.reference.max_unknowns, 50000.0);
-  EXPECT_EQ(second.config.reference.protocol.friction, 0.25);
-  EXPECT_NEAR(second.config.reference.protocol.tilt, -std::atan(1.0) / 5.0, 1e-14);
-  EXPECT_EQ(second.config.reference.protocol.lateral, 0.002);
-  EXPECT_EQ(second.config.reference.protocol.lateral_path, fingertip::meshes::LateralPath::after);
-  EXPECT_EQ(second.config.reference.protocol.lateral_samples, 4);
+  EXPECT_EQ(second.config.continuum().protocol.friction, 0.25);
+  EXPECT_NEAR(second.config.continuum().protocol.tilt, -std::atan(1.0) / 5.0, 1e-14);
+  EXPECT_EQ(second.config.continuum().protocol.lateral, 0.002);
+  EXPECT_EQ(second.config.continuum().protocol.lateral_path, fingertip::meshes::LateralPath::after);
+  EXPECT_EQ(second.config.continuum().protocol.lateral_samples, 4);
 }
 
 TEST(Loader, SetIsALiteralOrElseBareText) {
@@ -163,9 +163,9 @@ TEST(Loader, SetIsALiteralOrElseBareText) {
 TEST(Loader, ThePressGoesToTheContinuumToo) {
   const Config config =
       config_of({"press.speed=2 cm/s", "press.contact=coulomb", "press.tilt=45 deg"}).config;
-  EXPECT_EQ(config.reference.protocol.speed, 0.02);
-  EXPECT_EQ(config.reference.protocol.contact, fingertip::meshes::ContactMode::coulomb);
-  EXPECT_NEAR(config.reference.protocol.tilt, std::atan(1.0), 1e-14);
+  EXPECT_EQ(config.continuum().protocol.speed, 0.02);
+  EXPECT_EQ(config.continuum().protocol.contact, fingertip::meshes::ContactMode::coulomb);
+  EXPECT_NEAR(config.continuum().protocol.tilt, std::atan(1.0), 1e-14);
 }
 
 TEST(Loader, LaterSourcesWin) {
@@ -182,7 +182,7 @@ TEST(Loader, SamplesSetTheDepthAndSaySo) {
   const LoadedConfig loaded =
       config_of({"press.samples=[\"0.2 cm\", \"0.1 cm\"]", "press.depth=0.3 cm"});
   EXPECT_EQ(loaded.config.press.protocol.depth, 0.002);
-  EXPECT_EQ(loaded.config.reference.protocol.samples, (std::vector<double>{0.001, 0.002}));
+  EXPECT_EQ(loaded.config.continuum().protocol.samples, (std::vector<double>{0.001, 0.002}));
   ASSERT_EQ(loaded.notes.size(), 1U);
 }
 
@@ -307,7 +307,7 @@ TEST(Loader, AProgramDecidesDepthSpeedAndSamples) {
   EXPECT_EQ(protocol.depth, 2e-3);
   EXPECT_EQ(protocol.speed, 0.03);
   EXPECT_EQ(protocol.samples, (std::vector<double>{1e-3, 2e-3}));
-  EXPECT_EQ(loaded.config.reference.protocol.program, protocol.program);
+  EXPECT_EQ(loaded.config.continuum().protocol.program, protocol.program);
   EXPECT_TRUE(loaded.notes.empty());
   // What is written down can be run again, and what is said twice alike is welcome.
   const TemporaryFolder folder;

@@ -123,7 +123,7 @@ TEST(KeyTable, HasTheContractsKeysWithItsDefaults) {
 TEST(KeyTable, EveryDefaultIsAValidValueOfItsKey) {
   for (const Key& key : key_table()) {
     const toml::table table = toml::parse("v = " + key.preset);
-    EXPECT_NO_THROW(read_value(key, *table.get("v"))) << key.full_name();
+    EXPECT_NO_THROW(read(key, *table.get("v"))) << key.full_name();
   }
 }
 
@@ -146,7 +146,7 @@ TEST(KeyTable, EveryWordOfAContinuumKeyReachesTheJob) {
   for (const std::string& word : words("reference.solver"))
     EXPECT_EQ(name(with("reference.solver=" + word).reference.solver), word);
   for (const std::string& word : words("press.contact"))
-    EXPECT_EQ(name(with("press.contact=" + word).reference.protocol.contact), word);
+    EXPECT_EQ(name(with("press.contact=" + word).continuum().protocol.contact), word);
 }
 
 TEST(KeyTable, RangesOfTheContinuumAreThoseOfItsJob) {
@@ -163,7 +163,7 @@ TEST(KeyTable, RangesOfTheContinuumAreThoseOfItsJob) {
     const Key& key = *find_key(name);
     const double step = key.kind == Kind::integer ? 1.0 : 0.01 * key.range.minimum;
     const auto violations = [&](double value) {
-      Job job = load_config({}).config.reference;
+      Job job = load_config({}).config.continuum();
       set(job, value);
       return job.violations().size();
     };

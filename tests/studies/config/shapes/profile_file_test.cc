@@ -101,7 +101,7 @@ TEST(ProfileFile, MakesTheFingerOfAConfiguration) {
   EXPECT_NEAR(config.press.geometry.tip_radius, 0.0125, 1e-15);
   EXPECT_NEAR(config.press.geometry.rod_endpoint().z(), -0.001, 1e-15);
   EXPECT_NEAR(config.press.lattice.spacing, 0.0125 / 12, 1e-15);
-  EXPECT_EQ(config.reference.geometry.profile.size(), 4u);
+  EXPECT_EQ(config.continuum().geometry.profile.size(), 4u);
 }
 
 TEST(ProfileFile, RefusesWithPlaceAndRemedy) {
