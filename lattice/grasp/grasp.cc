@@ -253,7 +253,7 @@ void Grasp::report(bool in_any_case) {
   if (!in_any_case && instant - last_report_ < std::chrono::milliseconds(100)) return;
   last_report_ = instant;
   summarise();
-  if (!observer_(outcome_, control_.fraction_done(hand_.time()))) {
+  if (!observer_(outcome_, in_any_case ? 0.0 : control_.fraction_done(hand_.time()))) {
     throw meshes::Interrupted("the grasp was stopped at " + meshes::to_text(hand_.time()) + " s");
   }
 }

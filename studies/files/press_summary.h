@@ -171,7 +171,7 @@ constexpr auto fields_of(const ScalingEntry*) {
                &Whole::estimated_force_deviation);
 }
 
-/// How a controller did: run/tracking.h.
+/// How a controller did: studies/presses/tracking.h.
 struct TrackingEntry {
   double speed_deviation = meshes::unknown, speed_deviation_at_touch = meshes::unknown,
          tilt_deg = meshes::unknown, wanted_force = meshes::unknown, held_force = meshes::unknown,

@@ -1,6 +1,5 @@
 #include "studies/presses/grasp_job.h"
 
-#include <chrono>
 #include <cmath>
 
 #include "lattice/grasp/grasp_fields.h"
@@ -9,7 +8,7 @@
 #include "meshes/tables/fields_json.h"
 #include "source_hash.h"
 #include "studies/files/grasp_summary.h"
-#include "studies/presses/press_record.h"
+#include "studies/presses/journal.h"
 #include "studies/presses/press_setup.h"
 
 namespace fingertip::studies::inline presses {
@@ -19,7 +18,6 @@ namespace {
 using meshes::json_of;
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 GraspSummary summary_of(const lattice::GraspSetup& setup, const lattice::GraspOutcome& outcome,
                         const std::string& status) {
@@ -49,49 +47,16 @@ GraspSummary summary_of(const lattice::GraspSetup& setup, const lattice::GraspOu
           .wall_time = outcome.wall_time};
 }
 
-/// Keeps the folder up to date while the grasp runs.
-class GraspJournal {
- public:
-  GraspJournal(const lattice::GraspSetup& setup, const fs::path& folder, const JobContext& context)
-      : setup_(setup), folder_(folder), context_(context) {}
-
-  bool observe(const lattice::GraspOutcome& so_far, double fraction) {
-    const bool go_on = context_.report(fraction, "grasping");
-    // The last call before an end by force must be on disk whatever the time.
-    if (!go_on || Clock::now() - written_ > std::chrono::milliseconds(500)) {
-      write(so_far, go_on ? "running" : "interrupted");
-    }
-    return go_on;
-  }
-
-  void write(const lattice::GraspOutcome& outcome, const std::string& status) {
-    lattice::write_grasp_csv(outcome.rows, folder_ / "grasp.csv");
-    meshes::write_json_file(summary_of(setup_, outcome, status), folder_ / "summary.json");
-    written_ = Clock::now();
-  }
-
- private:
-  const lattice::GraspSetup& setup_;
-  fs::path folder_;
-  const JobContext& context_;
-  Clock::time_point written_;
-};
-
 void run_grasp_job(lattice::GraspSetup setup, const fs::path& folder, const JobContext& context) {
   setup.hand.finger.threads = context.threads;
-  GraspJournal recorder(setup, folder, context);
-  lattice::GraspOutcome last;
-  try {
-    const lattice::GraspOutcome outcome =
-        lattice::run_grasp(setup, [&](const lattice::GraspOutcome& so_far, double fraction) {
-          last = so_far;
-          return recorder.observe(so_far, fraction);
-        });
-    recorder.write(outcome, "finished");
-  } catch (const meshes::NotConverged& error) {
-    recorder.write(last, std::string("not converged: ") + error.what());
-    throw;
-  }
+  Journal<lattice::GraspOutcome> journal(
+      folder, context, "grasping",
+      [&](const lattice::GraspOutcome& outcome, const std::string& status) {
+        lattice::write_grasp_csv(outcome.rows, folder / "grasp.csv");
+        meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
+      });
+  journal.run(
+      [&](const lattice::GraspObserver& observe) { return lattice::run_grasp(setup, observe); });
 }
 
 ordered_json inputs_of(const lattice::GraspSetup& setup) {

@@ -1,8 +1,5 @@
 #include "studies/presses/press_job.h"
 
-#include <chrono>
-#include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "calibration/material/moduli.h"
@@ -13,11 +10,11 @@
 #include "meshes/tables/fields_json.h"
 #include "source_hash.h"
 #include "studies/presses/controller_choice.h"
+#include "studies/presses/journal.h"
 #include "studies/presses/pace.h"
 #include "studies/presses/pictures/movie.h"
 #include "studies/presses/pictures/snapshot_files.h"
 #include "studies/presses/press_notes.h"
-#include "studies/presses/press_record.h"
 #include "studies/presses/program_summary.h"
 #include "studies/presses/static_press_job.h"
 #include "studies/presses/tracking.h"
@@ -26,9 +23,7 @@ namespace fingertip::studies::inline presses {
 
 namespace {
 
-using nlohmann::ordered_json;
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 CensusEntry census_of(const lattice::PressOutcome& outcome) {
   const lattice::LatticeCensus& census = outcome.census;
@@ -51,19 +46,6 @@ ScalingEntry scaling_of(const lattice::PressSetup& setup) {
   for (const lattice::ForceDeviation& deviation : choice.deviations)
     entry.estimated_force_deviation.push_back({deviation.indentation, deviation.relative});
   return entry;
-}
-
-TrackingEntry tracking_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome) {
-  const Tracking tracking = measure_tracking(outcome.trace, outcome.first_touch_time);
-  return {
-      .speed_deviation = tracking.speed_deviation,
-      .speed_deviation_at_touch = tracking.speed_deviation_at_touch,
-      // Mirror planes hold the rod of a part: no merit of the controller.
-      .tilt_deg = outcome.sectors > 1 ? meshes::unknown : tracking.tilt * 180.0 / std::numbers::pi,
-      .wanted_force = tracking.wanted_force,
-      .held_force = tracking.held_force,
-      .force_deviation = tracking.force_deviation,
-      .follows_path = setup.follows_path};
 }
 
 PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome,
@@ -90,7 +72,10 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOu
   if (!summary.program.empty()) summary.work_in = outcome.work_in;
   if (setup.protocol.goes_back()) summary.loop_area = outcome.work;
   if (!summary.controlled()) return summary;
-  summary.tracking = tracking_of(setup, outcome);
+  summary.tracking = measure_tracking(outcome.trace, outcome.first_touch_time);
+  // Mirror planes hold the rod of a part: no merit of the controller.
+  if (outcome.sectors > 1) summary.tracking.tilt_deg = meshes::unknown;
+  summary.tracking.follows_path = setup.follows_path;
   if (!outcome.trace.empty()) {
     const lattice::TraceRow& last = outcome.trace.back();
     summary.end = EndEntry{last.time, last.indentation, last.normal_force};
@@ -98,66 +83,28 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOu
   return summary;
 }
 
-/// Keeps the folder up to date while the press runs.
-class PressJournal {
- public:
-  PressJournal(const lattice::PressSetup& setup, const fs::path& folder, const JobContext& context)
-      : setup_(setup), folder_(folder), context_(context) {}
-
-  bool observe(const lattice::PressOutcome& so_far, double fraction) {
-    const bool go_on = context_.report(fraction, "pressing");
-    // The last call before an end by force, or a failure (0 then), must be on disk whatever the
-    // time.
-    if (!go_on || fraction == 0.0 || Clock::now() - written_ > std::chrono::milliseconds(500)) {
-      write(so_far, go_on ? "running" : "interrupted");
-    }
-    return go_on;
-  }
-
-  void write(const lattice::PressOutcome& outcome, const std::string& status) {
-    outcome.response.write_csv(folder_ / "response.csv");
-    lattice::write_trace_csv(outcome.trace, folder_ / "trace.csv");
-    meshes::write_json_file(summary_of(setup_, outcome, status), folder_ / "summary.json");
-    written_ = Clock::now();
-  }
-
- private:
-  const lattice::PressSetup& setup_;
-  fs::path folder_;
-  const JobContext& context_;
-  Clock::time_point written_;
-};
-
 void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path& folder,
                    const JobContext& context) {
   setup.threads = setup.threads > 0
                       ? context.threads
                       : lattice::fastest_threads(lattice::moving_particles(setup), context.threads);
-  PressJournal recorder(setup, folder, context);
   std::optional<Movie> movie;
   if (movie_pictures > 0) movie.emplace(folder / "movie", setup.geometry);
-  const auto observe = [&](const lattice::PressOutcome& so_far, double fraction) {
-    return recorder.observe(so_far, fraction);
-  };
   const auto show = [&](const lattice::BoundaryView& view, const lattice::FingerPicture& picture) {
     movie->add(view, picture);
   };
-  try {
-    const lattice::PressOutcome outcome =
-        lattice::run_press(setup, observe, {movie_pictures, show});
-    recorder.write(outcome, "finished");
-    write_shapes(outcome, folder);
-    context.log("step " + meshes::to_text(outcome.step.step) + " s: " + outcome.step.explanation);
-  } catch (const meshes::NotConverged& error) {
-    set_press_status(folder, std::string("not converged: ") + error.what());
-    throw;
-  } catch (const lattice::ControllerFailed& error) {
-    set_press_status(folder, std::string("controller failed: ") + error.what());
-    throw;
-  } catch (const meshes::Interrupted&) {
-    set_press_status(folder, "interrupted");
-    throw;
-  }
+  Journal<lattice::PressOutcome> journal(
+      folder, context, "pressing",
+      [&](const lattice::PressOutcome& outcome, const std::string& status) {
+        outcome.response.write_csv(folder / "response.csv");
+        lattice::write_trace_csv(outcome.trace, folder / "trace.csv");
+        meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
+      });
+  const lattice::PressOutcome outcome = journal.run([&](const lattice::PressObserver& observe) {
+    return lattice::run_press(setup, observe, {movie_pictures, show});
+  });
+  write_shapes(outcome, folder);
+  context.log("step " + meshes::to_text(outcome.step.step) + " s: " + outcome.step.explanation);
 }
 
 }  // namespace

@@ -1,22 +1,19 @@
 #include "studies/presses/static_press_job.h"
 
-#include <cmath>
-
 #include "lattice/press/setup_fields.h"
 #include "lattice/press/static_press.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
 #include "source_hash.h"
 #include "studies/files/run_tables.h"
+#include "studies/presses/journal.h"
 #include "studies/presses/pictures/snapshot_files.h"
-#include "studies/presses/press_record.h"
 #include "studies/presses/program_summary.h"
 
 namespace fingertip::studies::inline presses {
 
 namespace {
 
-using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 PressSummary summary_of(const lattice::PressSetup& setup, const lattice::StaticOutcome& outcome,
@@ -41,27 +38,18 @@ void write_contact(const lattice::StaticOutcome& outcome, const fs::path& folder
 
 void run_static_job(const lattice::PressSetup& setup, const fs::path& folder,
                     const JobContext& context) {
-  const auto write = [&](const lattice::StaticOutcome& outcome, const std::string& status) {
-    outcome.response.write_csv(folder / "response.csv");
-    meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
-  };
-  const auto observe = [&](const lattice::StaticOutcome& so_far, double done) {
-    const bool go_on = context.report(done, "pressing");
-    write(so_far, go_on ? "running" : "interrupted");
-    return go_on;
-  };
-  try {
-    const lattice::StaticOutcome outcome = lattice::run_static_press(setup, observe, true);
-    write(outcome, "finished");
-    write_contact(outcome, folder);
-    write_shapes(outcome, folder);
-  } catch (const meshes::NotConverged& error) {
-    set_press_status(folder, std::string("not converged: ") + error.what());
-    throw;
-  } catch (const meshes::Interrupted&) {
-    set_press_status(folder, "interrupted");
-    throw;
-  }
+  Journal<lattice::StaticOutcome> journal(
+      folder, context, "pressing",
+      [&](const lattice::StaticOutcome& outcome, const std::string& status) {
+        outcome.response.write_csv(folder / "response.csv");
+        meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
+      },
+      std::chrono::milliseconds::zero());
+  const lattice::StaticOutcome outcome = journal.run([&](const lattice::StaticObserver& observe) {
+    return lattice::run_static_press(setup, observe, true);
+  });
+  write_contact(outcome, folder);
+  write_shapes(outcome, folder);
 }
 
 }  // namespace

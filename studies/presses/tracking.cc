@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fingertip::studies::inline presses {
 
@@ -12,7 +13,7 @@ double larger(double so_far, double value) {
   return std::isnan(so_far) || value > so_far ? value : so_far;
 }
 
-void measure_held_force(const std::vector<lattice::TraceRow>& trace, Tracking& tracking) {
+void measure_held_force(const std::vector<lattice::TraceRow>& trace, TrackingEntry& tracking) {
   if (trace.empty() || !trace.back().force_mode) return;
   tracking.wanted_force = trace.back().wanted_force;
   double sum = 0.0;
@@ -31,14 +32,14 @@ void measure_held_force(const std::vector<lattice::TraceRow>& trace, Tracking& t
 
 }  // namespace
 
-Tracking measure_tracking(const std::vector<lattice::TraceRow>& trace, double first_touch) {
-  Tracking tracking;
+TrackingEntry measure_tracking(const std::vector<lattice::TraceRow>& trace, double first_touch) {
+  TrackingEntry tracking;
   // Of a press without stages the commanded speed of every row that counts.
   double fastest = 0.0;
   for (const lattice::TraceRow& row : trace)
     fastest = std::max(fastest, std::abs(row.commanded_speed));
   for (const lattice::TraceRow& row : trace) {
-    tracking.tilt = larger(tracking.tilt, std::abs(row.tilt));
+    tracking.tilt_deg = larger(tracking.tilt_deg, std::abs(row.tilt) * 180.0 / std::numbers::pi);
     if (row.time < settling_time || fastest == 0.0 || row.force_mode) continue;
     const double deviation = std::abs(row.speed - row.commanded_speed) / fastest;
     const bool touching = row.time >= first_touch && row.time < first_touch + touch_time;

@@ -5,31 +5,20 @@
 #include <vector>
 
 #include "lattice/press/press.h"
+#include "studies/files/press_summary.h"
 
 namespace fingertip::studies::inline presses {
-
-/// Largest deviations over a trace, of speed while the controller does not control the contact
-/// force instead; NaN where the trace has no row to judge.
-struct Tracking {
-  /// |speed - command| / (largest |command|) from 50 ms after the start, without the first 20 ms
-  /// after first touch; dimensionless.
-  double speed_deviation = meshes::unknown;
-  double speed_deviation_at_touch = meshes::unknown;  ///< the same within those 20 ms
-  double tilt = meshes::unknown;                      ///< over the whole press [rad]
-
-  /// Of a press that ends while the controller controls the contact force, over its last 100 ms or
-  /// what there is of them in that mode: the force wanted at the end and the mean of what acted
-  /// [N], and the largest |force - wanted| / wanted.
-  double wanted_force = meshes::unknown;
-  double held_force = meshes::unknown;
-  double force_deviation = meshes::unknown;
-};
 
 inline constexpr double settling_time = 0.050;  ///< [s]
 inline constexpr double touch_time = 0.020;     ///< [s]
 inline constexpr double held_time = 0.100;      ///< [s]
 
-/// `first_touch` [s]; NaN when the plane was not reached.
-Tracking measure_tracking(const std::vector<lattice::TraceRow>& trace, double first_touch);
+/// Of a trace, NaN where it has no row to judge. Of speed, while the controller does not control
+/// the contact force instead: the largest |speed - command| / (largest |command|), without
+/// settling_time after the start, apart within touch_time of the first touch. Of force, where a
+/// press ends while the controller controls it: over its last held_time, or what there is of that,
+/// the force wanted at the end, the mean of what acted and the largest |force - wanted| / wanted.
+/// `first_touch` [s]: NaN when the plane was not reached.
+TrackingEntry measure_tracking(const std::vector<lattice::TraceRow>& trace, double first_touch);
 
 }  // namespace fingertip::studies::inline presses

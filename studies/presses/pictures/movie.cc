@@ -131,10 +131,6 @@ void Movie::add(const BoundaryView& view, const FingerPicture& picture) {
         << "</UnstructuredGrid>\n</VTKFile>\n";
   });
   times_.push_back(picture.time);
-  write_series();
-}
-
-void Movie::write_series() const {
   vtk::write_series(folder_ / "movie.pvd", times_);
 }
 

@@ -40,7 +40,6 @@ class Movie {
                        const lattice::FingerPicture& picture) const;
   MoviePiece rod_piece(const lattice::FingerPicture& picture) const;
   MoviePiece plane_piece(const lattice::FingerPicture& picture) const;
-  void write_series() const;
 
   std::filesystem::path folder_;
   meshes::Geometry geometry_;

@@ -26,16 +26,16 @@ TEST(Tracking, IgnoresTheStartAndSeparatesTheTouch) {
   trace[75].speed = 0.009;   // within 20 ms after first touch
   trace[95].speed = 0.0101;  // after them
   trace[60].tilt = -0.001;
-  const Tracking tracking = measure_tracking(trace, 0.070);
+  const TrackingEntry tracking = measure_tracking(trace, 0.070);
   EXPECT_NEAR(tracking.speed_deviation_at_touch, 0.1, 1e-12);
   EXPECT_NEAR(tracking.speed_deviation, 0.01, 1e-12);
-  EXPECT_EQ(tracking.tilt, 0.001);
+  EXPECT_NEAR(tracking.tilt_deg, 0.0573, 1e-4);
 }
 
 TEST(Tracking, WithoutTouchEverythingAfterTheStartCounts) {
   auto trace = steady_trace();
   trace[75].speed = 0.009;
-  const Tracking tracking = measure_tracking(trace, std::nan(""));
+  const TrackingEntry tracking = measure_tracking(trace, std::nan(""));
   EXPECT_NEAR(tracking.speed_deviation, 0.1, 1e-12);
   EXPECT_TRUE(std::isnan(tracking.speed_deviation_at_touch));
 }
@@ -52,7 +52,7 @@ TEST(Tracking, TellsTheForceThatIsHeldAtTheEnd) {
     trace[n].normal_force = n % 2 == 0 ? 0.102 : 0.098;
   }
   trace[41].normal_force = 0.2;  // settling, 59 ms before the end
-  Tracking tracking = measure_tracking(trace, 0.040);
+  TrackingEntry tracking = measure_tracking(trace, 0.040);
   EXPECT_NEAR(tracking.force_deviation, 1.0, 1e-12) << "the last 100 ms hold all of it";
   std::vector<fingertip::lattice::TraceRow> longer;
   for (std::size_t n = 0; n < 200; ++n) {
