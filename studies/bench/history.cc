@@ -3,7 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "studies/jobs/cache.h"
+#include "studies/files/places.h"
 
 namespace fingertip::studies::inline bench {
 
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 fs::path history_file(const fs::path& folder) {
-  return (folder.empty() ? Cache::default_folder() / "bench" : folder) / "history.jsonl";
+  return (folder.empty() ? cache_folder() / "bench" : folder) / "history.jsonl";
 }
 
 void append_history(const ordered_json& bench, const fs::path& file) {

@@ -4,15 +4,13 @@
 
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <new>
 
-#include "lattice/control/controller.h"
 #include "meshes/base/blas.h"
-#include "meshes/base/cannot_write.h"
 #include "meshes/base/errors.h"
 #include "studies/cli/command_line/standard_streams.h"
 #include "studies/cli/verbs/verbs.h"
+#include "studies/jobs/ending.h"
 
 namespace {
 
@@ -45,27 +43,13 @@ int run(int argc, char** argv) {
   } catch (const meshes::InvalidInput& error) {
     for (const meshes::Violation& violation : error.violations()) complain(to_string(violation));
     return 2;
-  } catch (const meshes::NotConverged& error) {
-    complain(error.what());
-    return 3;
-  } catch (const lattice::ControllerFailed& error) {
-    complain(error.what());
-    return 3;
-  } catch (const meshes::CannotWrite& error) {
-    complain(error.what());
-    return 3;
-  } catch (const std::filesystem::filesystem_error& error) {
-    complain(error.what());
-    return 3;
   } catch (const std::bad_alloc&) {
     complain("there is not enough memory; choose a coarser lattice or mesh");
     return 3;
-  } catch (const meshes::Interrupted& error) {
-    complain(std::string("interrupted: ") + error.what());
-    return 130;
   } catch (const std::exception& error) {
-    complain(error.what());
-    return 1;
+    const int code = studies::ending_of(error).exit_code;
+    complain((code == 130 ? "interrupted: " : "") + std::string(error.what()));
+    return code;
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include "studies/files/places.h"
 #include "studies/jobs/digest.h"
 #include "studies/jobs/file_lock.h"
 #include "studies/jobs/json_file.h"
@@ -59,10 +58,6 @@ void mark(const Job& job, const fs::path& folder, const std::string& status, dou
                 {"files", result_digests(folder)}},
                folder);
   fs::remove(folder / attempt_name);
-}
-
-fs::path Cache::default_folder() {
-  return cache_folder();
 }
 
 fs::path Cache::entry(const Job& job) const {

@@ -29,9 +29,6 @@ void mark(const Job& job, const std::filesystem::path& folder, const std::string
 /// damaged or unwritable cache costs time, never a result.
 class Cache {
  public:
-  /// $XDG_CACHE_HOME/fingertip, else ~/.cache/fingertip.
-  static std::filesystem::path default_folder();
-
   explicit Cache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// Copies the result of `job` into `target`, which it makes anew. False, and no `target`, when it

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <mutex>
 #include <thread>
 
 #include "lattice/control/controller.h"
@@ -23,6 +25,29 @@ namespace {
 constexpr const char* fetched_name = ".fetched";
 
 }  // namespace
+
+void side_by_side(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work_on = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        if (interrupted()) throw meshes::Interrupted("stopped by the user");
+        work(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (int worker = 0; worker < std::max(1, threads); ++worker) workers.emplace_back(work_on);
+  }
+  if (failure) std::rethrow_exception(failure);
+}
 
 JobResult Session::run(const PlannedJob& planned) {
   return run_with(planned, threads_);
@@ -143,25 +168,8 @@ JobResult Session::run_with(const PlannedJob& planned, int threads) {
 std::vector<JobResult> Session::run_all(const std::vector<PlannedJob>& planned) {
   for (const PlannedJob& job : planned) progress_.expect(job.name, job.job.weight);
   std::vector<JobResult> results(planned.size());
-  std::atomic<std::size_t> next = 0;
-  std::mutex failure_mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < planned.size(); i = next++) {
-      try {
-        if (interrupted()) throw meshes::Interrupted("stopped by the user");
-        results[i] = run_with(planned[i], 1);
-      } catch (...) {
-        const std::lock_guard lock(failure_mutex);
-        if (!failure) failure = std::current_exception();
-        next = planned.size();
-      }
-    }
-  };
-  std::vector<std::jthread> lanes;
-  for (int lane = 0; lane < std::max(1, threads_); ++lane) lanes.emplace_back(work);
-  lanes.clear();  // waits for them
-  if (failure) std::rethrow_exception(failure);
+  side_by_side(planned.size(), threads_,
+               [&](std::size_t i) { results[i] = run_with(planned[i], 1); });
   return results;
 }
 

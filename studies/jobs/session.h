@@ -1,7 +1,7 @@
 /// One run of a verb: its folder, progress and cache, and the jobs in it.
 #pragma once
 
-#include <mutex>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -63,5 +63,10 @@ class Session {
   int threads_;
   int ranks_;
 };
+
+/// Calls `work` with 0 ... count - 1 in that order, as many at a time as `threads`, or one. After
+/// the first failure, or Ctrl-C, no further one starts; it is thrown (Interrupted) when the running
+/// ones have ended.
+void side_by_side(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
 }  // namespace fingertip::studies::inline jobs

@@ -1,16 +1,13 @@
 #include "studies/sweep/sweep_run.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <mutex>
-#include <thread>
 
 #include "lattice/control/controller.h"
 #include "meshes/base/errors.h"
+#include "studies/files/places.h"
 #include "studies/jobs/cache.h"
 #include "studies/jobs/file_lock.h"
-#include "studies/jobs/interrupt.h"
 #include "studies/jobs/json_file.h"
 #include "studies/jobs/progress.h"
 #include "studies/jobs/run_folder.h"
@@ -58,7 +55,7 @@ PointResult compute(const Sweep& sweep, const PlannedPoint& planned, const fs::p
   clear_fragment(folder);
   Progress progress(ProgressStyle::off);
   RunFolder run({sweep.verb, folder, false, true, command_line}, config_of(sweep, point));
-  Session session(run, progress, Cache(Cache::default_folder()), 1);
+  Session session(run, progress, Cache(cache_folder()), 1);
   const auto failed = [&](const char* status, const std::exception& error) {
     run.finish(status, 3, error.what());
     return PointResult{point.id, std::string("failed: ") + error.what(), false};
@@ -125,30 +122,14 @@ std::vector<PointResult> run_points(const Sweep& sweep, const std::vector<Planne
                                     const fs::path& folder, int threads,
                                     const std::vector<std::string>& command_line,
                                     const std::function<void(const PointResult&)>& tell) {
-  Cache(Cache::default_folder()).tidy();
+  Cache(cache_folder()).tidy();
   std::vector<PointResult> results(points.size());
-  std::atomic<std::size_t> next = 0;
   std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::size_t p = next++; p < points.size(); p = next++) {
-      try {
-        if (interrupted()) throw meshes::Interrupted("the sweep was stopped");
-        results[p] = run_point(sweep, points[p], folder, command_line);
-        const std::lock_guard lock(mutex);
-        tell(results[p]);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = points.size();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> lanes;
-    for (int lane = 0; lane < std::max(1, threads); ++lane) lanes.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
+  side_by_side(points.size(), threads, [&](std::size_t p) {
+    results[p] = run_point(sweep, points[p], folder, command_line);
+    const std::lock_guard lock(mutex);
+    tell(results[p]);
+  });
   return results;
 }
 

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "lattice/control/controller.h"
 #include "lattice/dynamics/thread_choice.h"
 #include "meshes/base/cannot_write.h"
 #include "meshes/base/errors.h"
 #include "studies/config/asked_units.h"
+#include "studies/files/places.h"
 #include "studies/jobs/cache.h"
+#include "studies/jobs/ending.h"
 #include "studies/jobs/interrupt.h"
 #include "studies/jobs/result_files.h"
 #include "studies/presses/press_setup.h"
@@ -17,15 +18,17 @@ namespace fingertip::studies::inline cli::inline command_line {
 namespace {
 
 /// What to do with a run that ended early. What did not converge would not do so again.
-std::string kept_in(const std::filesystem::path& folder, bool computes_on) {
-  if (!computes_on)
-    return fmt::format(
-        "\nfingertip: {} is kept; run it with other settings, the same ones end the same way",
-        folder.string());
-  return fmt::format(
-      "\nfingertip: {} is kept; the same command with --out {} --resume auto computes the "
-      "rest",
-      folder.string(), folder.string());
+void tell_kept(const std::string& folder, const std::string& status) {
+  if (status == "not converged")
+    fmt::print(
+        stderr,
+        "fingertip: {} is kept; run it with other settings, the same ones end the same way\n",
+        folder);
+  else
+    fmt::print(stderr,
+               "fingertip: {} is kept; the same command with --out {} --resume auto computes the "
+               "rest\n",
+               folder, folder);
 }
 
 /// A calibration may find bad input late, when continua and fits are there already.
@@ -62,52 +65,38 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
     for (const std::string& note : loaded.notes) fmt::print(stderr, "fingertip: note: {}\n", note);
   }
   Progress progress(line.progress);
-  const Cache cache(Cache::default_folder());
+  const Cache cache(cache_folder());
   cache.tidy();
   Session session(folder, progress, cache, cores_for(loaded), line.ranks);
-  const auto end = [&](const std::string& status, int code, const std::exception& why,
-                       bool computes_on = true) {
-    progress.clear();
-    try {
-      folder.finish(status, code, why.what());
-    } catch (const meshes::CannotWrite&) {
-      // The reason why the run ended is what counts.
-    }
-    return why.what() + kept_in(folder.path(), computes_on);
-  };
-  const auto refuse = [&](const std::exception& why) {
-    progress.clear();
-    if (folder.resumed() || holds_results(folder.path())) {
-      folder.finish("bad input", 2, why.what());
-    } else {
-      folder.discard();
-    }
-  };
   try {
     const int code = body(session);
     folder.finish(code == 0 ? "finished" : code == 3 ? "not converged" : "criteria failed", code);
     return code;
-  } catch (const ProcessLost& error) {
-    throw ProcessLost(end("process lost", 3, error));
-  } catch (const lattice::ControllerFailed& error) {
-    throw lattice::ControllerFailed(end("controller failed", 3, error));
-  } catch (const meshes::NotConverged& error) {
-    throw meshes::NotConverged(end("not converged", 3, error, false));
-  } catch (const meshes::Interrupted& error) {
-    throw meshes::Interrupted(end("interrupted", 130, error));
-  } catch (const meshes::InvalidInput& error) {
-    refuse(error);
-    throw loaded.locate(error.violations());
-  } catch (const ConfigError& error) {
-    refuse(error);
-    throw;
-  } catch (const meshes::CannotWrite& error) {
-    throw meshes::CannotWrite(end("could not write", 3, error));
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw meshes::CannotWrite(end("could not write", 3, error));
   } catch (const std::exception& error) {
-    throw std::runtime_error(end("failed", 1, error));
+    progress.clear();
+    const auto [status, exit_code] = ending_of(error);
+    if (exit_code == 2 && !folder.resumed() && !holds_results(folder.path())) {
+      folder.discard();
+    } else {
+      try {
+        folder.finish(status, exit_code, error.what());
+      } catch (const meshes::CannotWrite&) {
+        // The reason why the run ended is what counts.
+      }
+      if (exit_code != 2) tell_kept(folder.path().string(), status);
+    }
+    if (const auto* invalid = dynamic_cast<const meshes::InvalidInput*>(&error))
+      throw loaded.locate(invalid->violations());
+    throw;
   }
+}
+
+void print_folder(const Session& session, const JobResult& result) {
+  if (result.reused)
+    fmt::print("(result from an earlier run with the same input)\n");
+  else
+    fmt::print("computed in {:.2f} s\n", result.wall_time);
+  fmt::print("run folder: {}\n", session.path_of({}).string());
 }
 
 }  // namespace fingertip::studies::inline cli::inline command_line

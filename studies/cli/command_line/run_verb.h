@@ -11,10 +11,13 @@ namespace fingertip::studies::inline cli::inline command_line {
 
 /// Prepares the run folder, runs `body` in it and completes the manifest whatever happens. Bad
 /// input that only shows during the run (an unstable time step) takes a new folder away again.
-/// Returns body's exit code; rethrows what it throws, with violations located in the user's input
-/// or, when the folder was kept, with a word on where it is and how to go on.
+/// Returns body's exit code; rethrows what it throws, violations located in the user's input. Where
+/// the folder is kept, stderr tells where it is and how to go on.
 int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std::string& case_text,
                   const std::function<int(Session&)>& body);
+
+/// How long the job of the run took, and where its files are, for the screen.
+void print_folder(const Session& session, const JobResult& result);
 
 /// That jobs may use together.
 int cores_for(const LoadedConfig& loaded);

@@ -5,7 +5,6 @@
 #include "studies/cli/verbs/verbs.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
-#include "studies/jobs/cache.h"
 #include "studies/jobs/provenance.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
@@ -49,7 +48,7 @@ int run_doctor(const CommandLine&) {
     row(name, value.is_string() ? value.get<std::string>() : value.dump());
   }
   row("cases", fmt::format("{} in {}", all_cases().size(), cases_folder().string()));
-  row("cache", Cache::default_folder().string() + ", " + writability(Cache::default_folder()));
+  row("cache", cache_folder().string() + ", " + writability(cache_folder()));
   row("runs", (fs::current_path() / "runs").string() + ", " + writability("runs"));
   return continuum && plots ? 0 : 2;
 }

@@ -74,26 +74,12 @@ void print_depths(const meshes::PressResponse& response, const meshes::PressProt
                 protocol.lateral != 0.0 && !protocol.slides_after());
 }
 
-/// The lateral motion that followed, if one did.
-void print_sliding(const meshes::PressResponse& response) {
+/// The curve at the wanted depths, and the lateral motion that followed, if one did.
+void print_response(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
+  print_depths(response, protocol);
   if (response.sliding().empty()) return;
   fmt::print("then along the plane at {}:\n", shown_units().length.text(response.depth()));
   print_samples(response.sliding(), "lateral", &meshes::PressSample::lateral_displacement, true);
-}
-
-void print_response(const std::filesystem::path& folder, const meshes::PressProtocol& protocol) {
-  const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
-  print_depths(response, protocol);
-  print_sliding(response);
-}
-
-void print_folder(const Session& session, const JobResult& result) {
-  if (result.reused) {
-    fmt::print("(result from an earlier run with the same input)\n");
-  } else {
-    fmt::print("computed in {:.2f} s\n", result.wall_time);
-  }
-  fmt::print("run folder: {}\n", session.path_of({}).string());
 }
 
 /// "continuum, finite strain (law A), stick contact, static"
@@ -126,9 +112,8 @@ void print_frequencies(const std::filesystem::path& folder) {
 struct WorstError {
   double relative = 0.0, indentation = 0.0;
 };
-WorstError worst_error(const std::filesystem::path& folder) {
+WorstError worst_error(const meshes::PressResponse& response) {
   WorstError worst;
-  const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
   for (const meshes::PressSample& sample : response.samples()) {
     const double error = std::abs(sample.force_error / sample.normal_force);
     if (error > worst.relative || std::isnan(error)) worst = {error, sample.indentation};
@@ -139,8 +124,7 @@ WorstError worst_error(const std::filesystem::path& folder) {
 
 /// How many meshes it took, and whether the error is as small as wanted.
 void print_accuracy(const std::filesystem::path& folder,
-                    const fem_reference::ReferenceJob& reference) {
-  const WorstError worst = worst_error(folder);
+                    const fem_reference::ReferenceJob& reference, const WorstError& worst) {
   if (std::isnan(worst.relative)) return;
   const bool reached = worst.relative <= reference.tolerance;
   fmt::print("estimated error of the force: at most {:.3g} % ({:.3g} % wanted{})",
@@ -214,8 +198,7 @@ void print_program(const std::vector<StageEntry>& program, double work_in, doubl
     fmt::print("work not given back (area of the loop): {:.4g} mJ\n", 1e3 * loop_area);
 }
 
-void print_press_facts(const std::filesystem::path& folder, bool reused) {
-  const auto summary = struct_of<PressSummary>(read_entry(folder / "summary.json"));
+void print_press_facts(const PressSummary& summary, bool reused) {
   print_program(summary.program, summary.work_in, summary.loop_area);
   if (summary.rests()) {
     const StaticCensusEntry& census = summary.static_census;
@@ -242,29 +225,32 @@ void print_sources(const LoadedConfig& loaded) {
     fmt::print("stiffness of the contact scheduled on {}\n", config.controller.schedule.string());
 }
 
-/// What --real-time has come to: errors, and how fast the press was.
-void finish_real_time(Session& session, RealTimeRun& run, bool quiet) {
-  const std::filesystem::path& folder = session.folder().path();
-  const auto summary = struct_of<PressSummary>(read_entry(folder / "summary.json"));
-  run.record.slowest_factor = summary.slowest_real_time_factor;
-  run.record.whole_factor = summary.real_time_factor;
-  run.record.step = summary.step.step;
-  run.find_force_error(session, meshes::PressResponse::read_csv(folder / "response.csv"));
-  run.write(folder);
-  auto told = read_json(folder / "summary.json");
-  told["real_time"] = meshes::json_of<nlohmann::ordered_json>(run.record);
-  rewrite_result(folder, "summary.json", told);
-  if (!quiet) fmt::print("{}", run.text());
-}
+/// The summary.json of a run, which gets what belongs to the run: what the job computes does not
+/// depend on it, so it is no part of its cached result.
+class ToldSummary {
+ public:
+  explicit ToldSummary(std::filesystem::path folder)
+      : folder_(std::move(folder)), content_(read_json(folder_ / summary_name)) {}
 
-/// Puts the run's notes where scripts look. They belong to the run: what the job computes does not
-/// depend on them, so they are no part of its cached result.
-void put_warnings(const std::filesystem::path& folder, const std::vector<std::string>& notes) {
-  auto summary = read_json(folder / "summary.json");
-  summary.erase("warnings");
-  if (!notes.empty()) summary["warnings"] = notes;
-  rewrite_result(folder, "summary.json", summary);
-}
+  PressSummary press() const {
+    return struct_of<PressSummary>(JsonEntry(content_, folder_ / summary_name));
+  }
+  /// The run's notes where scripts look.
+  void put_warnings(const std::vector<std::string>& notes) {
+    put("warnings", notes.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(notes));
+  }
+  /// Null takes the entry away.
+  void put(const char* entry, const nlohmann::ordered_json& value) {
+    content_.erase(entry);
+    if (!value.is_null()) content_[entry] = value;
+    rewrite_result(folder_, summary_name, content_);
+  }
+
+ private:
+  static constexpr const char* summary_name = "summary.json";
+  std::filesystem::path folder_;
+  nlohmann::ordered_json content_;
+};
 
 }  // namespace
 
@@ -285,28 +271,37 @@ int run_press(const CommandLine& line) {
                         "choose pid or quasi-static"}});
   }
   return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const std::filesystem::path& folder = session.folder().path();
     Job job = press_job(setup, line.movie);
     if (real_time) {
-      real_time->write(session.folder().path());
+      real_time->write(folder);
       job.repeatable = false;  // it is this machine's time that is asked for
     }
     const JobResult result = session.run({"", std::move(job), false});
-    put_warnings(session.folder().path(), warnings);
+    ToldSummary told(folder);
+    told.put_warnings(warnings);
+    const PressSummary summary = told.press();
+    const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
     if (!line.quiet) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
-      print_response(session.folder().path(), setup.protocol);
-      print_press_facts(session.folder().path(), result.reused);
+      print_response(response, setup.protocol);
+      print_press_facts(summary, result.reused);
       print_sources(loaded);
     }
-    if (real_time) finish_real_time(session, *real_time, line.quiet);
-    if (!line.quiet) {
-      if (line.movie > 0) {
-        fmt::print("movie for ParaView: {}\n",
-                   (session.folder().path() / "movie/movie.pvd").string());
-      }
-      print_folder(session, result);
+    if (real_time) {
+      real_time->record.slowest_factor = summary.slowest_real_time_factor;
+      real_time->record.whole_factor = summary.real_time_factor;
+      real_time->record.step = summary.step.step;
+      real_time->find_force_error(session, response);
+      real_time->write(folder);
+      told.put("real_time", meshes::json_of<nlohmann::ordered_json>(real_time->record));
     }
+    if (line.quiet) return 0;
+    if (real_time) fmt::print("{}", real_time->text());
+    if (line.movie > 0)
+      fmt::print("movie for ParaView: {}\n", (folder / "movie/movie.pvd").string());
+    print_folder(session, result);
     return 0;
   });
 }
@@ -322,7 +317,7 @@ int run_modes(const CommandLine& line) {
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const JobResult result =
         session.run({"", modes_job(setup, loaded.config.lattice_modes), false});
-    put_warnings(session.folder().path(), loaded.notes);
+    ToldSummary(session.folder().path()).put_warnings(loaded.notes);
     if (line.quiet) return 0;
     fmt::print("{} lattice, natural frequencies\n", lattice::name(setup.lattice.model));
     print_frequencies(session.folder().path());
@@ -339,23 +334,24 @@ int run_reference(const CommandLine& line) {
     const JobResult result = session.run({"", reference_job(reference), false});
     const std::filesystem::path& folder = session.folder().path();
     const bool press = reference.analysis != fem_reference::Analysis::modes;
-    const bool reached = !press || !reference.estimate_error ||
-                         !(worst_error(folder).relative > reference.tolerance);
+    const auto response =
+        press ? meshes::PressResponse::read_csv(folder / "response.csv") : meshes::PressResponse();
+    const WorstError worst = worst_error(response);
+    const bool reached = !reference.estimate_error || !(worst.relative > reference.tolerance);
     if (!line.quiet) {
       fmt::print("{}\n", heading(reference));
       if (press) {
-        print_response(folder, reference.protocol);
-        const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+        print_response(response, reference.protocol);
         print_program(stage_entries(reference.protocol, response), meshes::unknown,
                       reference.protocol.goes_back() ? work_along(response) : meshes::unknown);
-        if (reference.estimate_error) print_accuracy(folder, reference);
+        if (reference.estimate_error) print_accuracy(folder, reference, worst);
       } else {
         print_frequencies(folder);
       }
       print_folder(session, result);
     }
     if (reached) return 0;
-    put_warnings(folder, {"force_error over normal_force exceeds reference.tolerance"});
+    ToldSummary(folder).put_warnings({"force_error over normal_force exceeds reference.tolerance"});
     fmt::print(stderr,
                "fingertip: not converged: the force may be off by more than reference.tolerance = "
                "{:.3g}; the run is kept, with its error bars{}\n",
