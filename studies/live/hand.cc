@@ -4,10 +4,12 @@
 
 namespace fingertip::studies::inline live {
 
-Hand::Hand(const Eigen::Matrix<double, 6, 6>& inertia, const HandSettings& settings)
-    : inertia_(inertia),
-      settings_(settings),
-      frequency_(std::sqrt(settings.stiffness / inertia(0, 0))) {}
+namespace {
+constexpr double stiffness = 100.0, longest = 5.0 / stiffness;  // [N/m], [m]
+}  // namespace
+
+Hand::Hand(const Eigen::Matrix<double, 6, 6>& inertia)
+    : inertia_(inertia), frequency_(std::sqrt(stiffness / inertia(0, 0))) {}
 
 void Hand::release() {
   place_.reset();
@@ -20,7 +22,6 @@ lattice::Wrench Hand::wrench(const lattice::Measurement& m) {
   if (!place_) return last_;
   if (!orientation_) orientation_ = m.pose.orientation;
   meshes::Vector3 way = *place_ - m.pose.position;
-  const double longest = settings_.force_limit / settings_.stiffness;
   if (way.norm() > longest) way *= longest / way.norm();
   Eigen::Matrix<double, 6, 1> error, rate;
   error << way, lattice::rotation_vector(*orientation_ * m.pose.orientation.conjugate());

@@ -13,16 +13,12 @@ namespace fingertip::studies::inline live {
 ///   (F, M) = I (w² (x_h - x, theta) - 2 w (v, omega)),  w² = k/m,
 /// theta the rotation vector from the rod to the orientation that it had at the first grip. The
 /// spring's force is k (x_h - x) whatever way the rod is pulled, and M holds against the turning
-/// that a force at the end of a free rod would cause; both poles of the free rod lie at -w.
-struct HandSettings {
-  double stiffness = 100.0;  ///< k [N/m], > 0
-  double force_limit = 5.0;  ///< of the spring [N], > 0
-};
-
+/// that a force at the end of a free rod would cause; both poles of the free rod lie at -w. k is
+/// 100 N/m, the spring's force at most 5 N.
 class Hand {
  public:
   /// `inertia`: of the rod, 6 x 6 at its endpoint [kg, kg m, kg m²].
-  explicit Hand(const Eigen::Matrix<double, 6, 6>& inertia, const HandSettings& settings = {});
+  explicit Hand(const Eigen::Matrix<double, 6, 6>& inertia);
 
   /// Pulls the endpoint toward `place` [m] from now on.
   void hold(const meshes::Vector3& place) { place_ = place; }
@@ -35,7 +31,6 @@ class Hand {
 
  private:
   Eigen::Matrix<double, 6, 6> inertia_;
-  HandSettings settings_;
   double frequency_;  ///< w [rad/s]
   std::optional<meshes::Vector3> place_;
   std::optional<Eigen::Quaterniond> orientation_;

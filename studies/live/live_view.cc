@@ -63,9 +63,7 @@ double run_live_view(
   Simulation simulation(setup, options.paused, options.rate, [&listener] {
     if (LiveServer* server = listener) server->frame_ready();
   });
-  ServerOptions server_options;
-  server_options.port = options.port;
-  LiveServer server(simulation, reference, title_of(setup), server_options);
+  LiveServer server(simulation, reference, title_of(setup), options.port);
   listener = &server;
   ready(server.url(), reference.remark ? reference.remark->text : "");
   const auto started = std::chrono::steady_clock::now();

@@ -3,6 +3,7 @@
 #include <civetweb.h>
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -62,11 +63,10 @@ Credentials credentials_of(const mg_connection* connection) {
           request->query_string != nullptr ? request->query_string : ""};
 }
 
-PageServer::PageServer(const Reference& reference, const std::filesystem::path& three_folder) {
+PageServer::PageServer(const Reference& reference) {
   for (const auto& [name, content] : page_files())
     files_[name == "index.html" ? "/" : "/" + name] = {type_of(name), std::string(content)};
-  const std::filesystem::path three =
-      three_folder.empty() ? "/usr/share/javascript/three" : three_folder;
+  const std::filesystem::path three = "/usr/share/javascript/three";
   for (const char* script : {"three.min.js", "examples/js/controls/OrbitControls.js"}) {
     const std::string name = std::filesystem::path(script).filename();
     files_["/" + name] = {type_of(name), file_content(three / script)};

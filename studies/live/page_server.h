@@ -1,7 +1,6 @@
 /// What a browser reads of the live view by GET: the page, three.js, the surfaces laid over it.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -19,9 +18,8 @@ Credentials credentials_of(const mg_connection* connection);
 
 class PageServer {
  public:
-  /// three.js is read from `three_folder`; empty: where Debian's package has it. Throws
-  /// InvalidInput when it is not there.
-  PageServer(const Reference& reference, const std::filesystem::path& three_folder);
+  /// three.js is read from where Debian's package has it. Throws InvalidInput when it is not there.
+  explicit PageServer(const Reference& reference);
 
   /// Answers a request to the server at `port`; returns the status it answered with.
   int serve(mg_connection* connection, int port, const Access& access) const;

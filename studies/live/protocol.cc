@@ -1,5 +1,6 @@
 #include "studies/live/protocol.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -28,20 +29,13 @@ std::optional<double> number_in(const Json& message, const char* name) {
 }
 
 Parsed parse_adjustment(const Json& message) {
-  static constexpr const char* names[] = {"speed",
-                                          "depth",
-                                          "natural_frequency",
-                                          "derivative_filter",
-                                          "bond_compensation",
-                                          "controller",
-                                          "contact_force",
-                                          "rate"};
-  const auto name = message.find("name");
+  const auto found = message.find("name");
+  const std::string name = found != message.end() && found->is_string() ? *found : "";
   const std::optional<double> value = number_in(message, "value");
   if (!value) return "set: value must be a number";
-  for (const char* known : names) {
-    if (name != message.end() && *name == known) return Adjust{known, *value};
-  }
+  if (name == "controller" || name == "contact_force" || name == "rate" ||
+      std::ranges::find(sliders, name, &Slider::name) != std::end(sliders))
+    return Adjust{name, *value};
   return "set: there is no such setting";
 }
 
@@ -79,12 +73,8 @@ Json span_json(const Span& span) {
 }
 
 Json limits_json(const LiveLimits& limits) {
-  Json json = {{"speed", span_json(limits.speed)},
-               {"depth", span_json(limits.depth)},
-               {"natural_frequency", span_json(limits.natural_frequency)},
-               {"derivative_filter", span_json(limits.derivative_filter)},
-               {"bond_compensation", span_json(limits.bond_compensation)},
-               {"reach", limits.reach}};
+  Json json = {{"reach", limits.reach}};
+  for (const Slider& slider : sliders) json[slider.name] = span_json(limits.*slider.limits);
   if (limits.contact_force) json["contact_force"] = span_json(*limits.contact_force);
   return json;
 }
@@ -99,14 +89,10 @@ std::string text_of(const Json& json) {
 
 Json settings_json(const LiveState& state) {
   const LiveSettings& s = state.settings;
-  return {{"speed", s.speed},
-          {"depth", s.depth},
-          {"natural_frequency", s.natural_frequency},
-          {"derivative_filter", s.derivative_filter},
-          {"bond_compensation", s.bond_compensation},
-          {"controller", s.controller},
-          {"contact_force", s.contact_force},
-          {"rate", state.rate}};
+  Json json = {
+      {"controller", s.controller}, {"contact_force", s.contact_force}, {"rate", state.rate}};
+  for (const Slider& slider : sliders) json[slider.name] = s.*slider.value;
+  return json;
 }
 
 Json frame_json(const LiveFrame& frame, std::size_t rows) {

@@ -21,15 +21,12 @@ LiveLimits limits_for(const lattice::PressSetup& setup) {
   LiveLimits limits;
   limits.depth = {-setup.protocol.clearance,
                   std::max(setup.protocol.depth, deepest * setup.geometry.thickness())};
-  limits.speed.least = std::min(limits.speed.least, setup.protocol.speed);
-  limits.speed.most = std::max(limits.speed.most, setup.protocol.speed);
-  const lattice::PidSettings& servo = setup.controller;
-  limits.natural_frequency.most = std::max(limits.natural_frequency.most, servo.natural_frequency);
-  limits.natural_frequency.least =
-      std::min(limits.natural_frequency.least, servo.natural_frequency);
-  limits.derivative_filter.most = std::max(limits.derivative_filter.most, servo.derivative_filter);
-  limits.derivative_filter.least =
-      std::min(limits.derivative_filter.least, servo.derivative_filter);
+  const auto reach = [](Span& span, double value) {
+    span = {std::min(span.least, value), std::max(span.most, value)};
+  };
+  reach(limits.speed, setup.protocol.speed);
+  reach(limits.natural_frequency, setup.controller.natural_frequency);
+  reach(limits.derivative_filter, setup.controller.derivative_filter);
   limits.reach = 2.0 * setup.geometry.tip_radius;
   return limits;
 }
@@ -104,11 +101,8 @@ void LiveRig::reset() {
 
 void LiveRig::set(const LiveSettings& wanted) {
   LiveSettings next = wanted;
-  next.speed = within(wanted.speed, limits_.speed);
-  next.depth = within(wanted.depth, limits_.depth);
-  next.natural_frequency = within(wanted.natural_frequency, limits_.natural_frequency);
-  next.derivative_filter = within(wanted.derivative_filter, limits_.derivative_filter);
-  next.bond_compensation = within(wanted.bond_compensation, limits_.bond_compensation);
+  for (const Slider& slider : sliders)
+    next.*slider.value = within(wanted.*slider.value, limits_.*slider.limits);
   set_point_.want(next.speed, setup_.protocol.clearance + next.depth);
   const bool other_gains = next.natural_frequency != settings_.natural_frequency ||
                            next.derivative_filter != settings_.derivative_filter ||

@@ -41,6 +41,19 @@ struct LiveLimits {
   double reach = 0.0;  ///< of the hand, each coordinate from the endpoint's start [m]
 };
 
+/// The sliders that every press has, by their names in messages.
+struct Slider {
+  const char* name;
+  double LiveSettings::*value;
+  Span LiveLimits::*limits;
+};
+inline constexpr Slider sliders[] = {
+    {"speed", &LiveSettings::speed, &LiveLimits::speed},
+    {"depth", &LiveSettings::depth, &LiveLimits::depth},
+    {"natural_frequency", &LiveSettings::natural_frequency, &LiveLimits::natural_frequency},
+    {"derivative_filter", &LiveSettings::derivative_filter, &LiveLimits::derivative_filter},
+    {"bond_compensation", &LiveSettings::bond_compensation, &LiveLimits::bond_compensation}};
+
 /// One line of the plots, once per controller period. SI.
 struct LiveRow {
   double time = 0.0, indentation = 0.0, normal_force = 0.0, speed = 0.0, commanded_speed = 0.0,

@@ -6,15 +6,9 @@
 #include <pthread.h>
 
 #include <array>
-#include <condition_variable>
 #include <future>
-#include <map>
-#include <mutex>
-#include <thread>
 
 #include "meshes/base/errors.h"
-#include "studies/live/access.h"
-#include "studies/live/page_server.h"
 
 /// CivetWeb asks for stacks of 100 kB. glibc takes the thread-local variables of all libraries out
 /// of a thread's stack (OpenBLAS, METIS and glog together have 120 kB), so pthread_create() would
@@ -35,75 +29,24 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t rows_per_frame = 600;
-constexpr double rest_allowance = 2.0;  ///< burst of messages over their rate
+constexpr double messages_per_second = 150.0;  ///< of one client, sustained
 
 double seconds_now() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
-struct Client {
-  explicit Client(const ServerOptions& options)
-      : rate(options.messages_per_second, rest_allowance * options.messages_per_second) {}
+}  // namespace
 
+struct LiveServer::Client {
   std::mutex mutex;  ///< held while writing; guards what follows
   bool open = true;
   std::uint64_t sent = 0, acknowledged = 0, epoch = 0, next_row = 0;
-  RateLimit rate;
+  RateLimit rate{messages_per_second, 2.0 * messages_per_second};
 };
 
-}  // namespace
-
-class LiveServer::Implementation {
- public:
-  Implementation(Simulation& simulation, const Reference& reference, const std::string& title,
-                 const ServerOptions& options);
-  ~Implementation();
-
-  void frame_ready();
-  int port() const { return port_; }
-  const Access& access() const { return *access_; }
-  int clients() const {
-    const std::lock_guard lock(mutex_);
-    return int(clients_.size());
-  }
-
- private:
-  using ClientMap = std::map<const mg_connection*, std::shared_ptr<Client>>;
-
-  void start();
-  void route();
-  bool refuse(mg_connection* connection);
-  void greet(mg_connection* connection);
-  bool take(mg_connection* connection, int bits, std::string_view text);
-  void forget(const mg_connection* connection);
-  std::shared_ptr<Client> client(const mg_connection* connection) const;
-  void stream();
-  void send_frame(mg_connection* connection, Client& client, const LiveFrame& frame);
-  void say_goodbye();
-  void stop();
-
-  Simulation& simulation_;
-  const Reference& reference_;
-  ServerOptions options_;
-  std::string scene_;
-  PageServer page_;
-  mg_context* context_ = nullptr;
-  int port_ = 0;
-  std::unique_ptr<Access> access_;
-
-  mutable std::mutex mutex_;  ///< guards clients_, work_, stopping_
-  std::condition_variable wake_;
-  ClientMap clients_;
-  bool work_ = false, stopping_ = false;
-  std::thread sender_;
-};
-
-LiveServer::Implementation::Implementation(Simulation& simulation, const Reference& reference,
-                                           const std::string& title, const ServerOptions& options)
-    : simulation_(simulation),
-      reference_(reference),
-      options_(options),
-      page_(reference, options.three_folder) {
+LiveServer::LiveServer(Simulation& simulation, const Reference& reference, const std::string& title,
+                       int port)
+    : simulation_(simulation), reference_(reference), page_(reference) {
   const LiveRig& rig = simulation.rig();
   LiveScene scene;
   if (reference_.remark) {
@@ -122,11 +65,11 @@ LiveServer::Implementation::Implementation(Simulation& simulation, const Referen
     scene.reference.push_back({sample.indentation, sample.normal_force});
   for (const Overlay& overlay : reference.overlays) scene.overlays.push_back(overlay.indentation);
   scene_ = encode_scene(scene);
-  start();
+  start(port);
   sender_ = std::thread([this] { stream(); });
 }
 
-LiveServer::Implementation::~Implementation() {
+LiveServer::~LiveServer() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
@@ -139,7 +82,7 @@ LiveServer::Implementation::~Implementation() {
 }
 
 /// So that a page knows at once, and its thread here ends with its answer.
-void LiveServer::Implementation::say_goodbye() {
+void LiveServer::say_goodbye() {
   ClientMap clients;
   {
     const std::lock_guard lock(mutex_);
@@ -155,7 +98,7 @@ void LiveServer::Implementation::say_goodbye() {
 
 /// CivetWeb's threads look up from their sockets every two seconds, and no option changes that
 /// (before its version 1.17). A visitor wakes the one that waits for visitors, which ends the rest.
-void LiveServer::Implementation::stop() {
+void LiveServer::stop() {
   using namespace std::chrono_literals;
   const std::future<void> stopped = std::async(std::launch::async, [this] { mg_stop(context_); });
   for (int visits = 0; visits < 10 && stopped.wait_for(20ms) != std::future_status::ready;
@@ -165,10 +108,10 @@ void LiveServer::Implementation::stop() {
   }
 }
 
-void LiveServer::Implementation::start() {
+void LiveServer::start(int port) {
   mg_init_library(0);
-  const std::string where = fmt::format("127.0.0.1:{}", options_.port);
-  const std::string threads = std::to_string(3 * options_.most_clients);
+  const std::string where = fmt::format("127.0.0.1:{}", port);
+  const std::string threads = std::to_string(3 * most_clients);
   const char* options[] = {"listening_ports",
                            where.c_str(),
                            "num_threads",
@@ -191,8 +134,7 @@ void LiveServer::Implementation::start() {
   if (context_ == nullptr || mg_get_server_ports(context_, 1, ports) != 1) {
     if (context_ != nullptr) mg_stop(context_);
     mg_exit_library();
-    throw meshes::InvalidInput({"--port", std::to_string(options_.port),
-                                "127.0.0.1 does not give this port",
+    throw meshes::InvalidInput({"--port", std::to_string(port), "127.0.0.1 does not give this port",
                                 "choose another one, or 0 for a free one"});
   }
   port_ = ports[0].port;
@@ -200,57 +142,57 @@ void LiveServer::Implementation::start() {
   route();
 }
 
-void LiveServer::Implementation::route() {
+void LiveServer::route() {
   mg_set_request_handler(
       context_, "**",
       [](mg_connection* connection, void* self) {
-        const auto& us = *static_cast<const Implementation*>(self);
-        return us.page_.serve(connection, us.port_, us.access());
+        const auto& us = *static_cast<const LiveServer*>(self);
+        return us.page_.serve(connection, us.port_, *us.access_);
       },
       this);
   // Here, not in the connect handler: it may answer.
   mg_set_auth_handler(
       context_, "/stream$",
       [](mg_connection* connection, void* self) {
-        return static_cast<Implementation*>(self)->refuse(connection) ? 0 : 1;
+        return static_cast<LiveServer*>(self)->refuse(connection) ? 0 : 1;
       },
       this);
   mg_set_websocket_handler(
       context_, "/stream$", [](const mg_connection*, void*) { return 0; },
       [](mg_connection* connection, void* self) {
-        static_cast<Implementation*>(self)->greet(connection);
+        static_cast<LiveServer*>(self)->greet(connection);
       },
       [](mg_connection* connection, int bits, char* data, std::size_t size, void* self) {
-        return static_cast<Implementation*>(self)->take(connection, bits, {data, size}) ? 1 : 0;
+        return static_cast<LiveServer*>(self)->take(connection, bits, {data, size}) ? 1 : 0;
       },
       [](const mg_connection* connection, void* self) {
-        static_cast<Implementation*>(self)->forget(connection);
+        static_cast<LiveServer*>(self)->forget(connection);
       },
       this);
 }
 
 /// Whether the websocket was refused.
-bool LiveServer::Implementation::refuse(mg_connection* connection) {
+bool LiveServer::refuse(mg_connection* connection) {
   if (!access_->may_connect(credentials_of(connection))) {
     mg_send_http_error(connection, 403, "%s", "wrong host, origin or token");
     return true;
   }
   const std::lock_guard lock(mutex_);
-  if (stopping_ || int(clients_.size()) >= options_.most_clients) {
+  if (stopping_ || int(clients_.size()) >= most_clients) {
     mg_send_http_error(connection, 503, "%s", "too many pages are connected");
     return true;
   }
   return false;
 }
 
-std::shared_ptr<Client> LiveServer::Implementation::client(const mg_connection* connection) const {
+std::shared_ptr<LiveServer::Client> LiveServer::client(const mg_connection* connection) const {
   const std::lock_guard lock(mutex_);
   const auto found = clients_.find(connection);
   return found == clients_.end() ? nullptr : found->second;
 }
 
-void LiveServer::Implementation::greet(mg_connection* connection) {
-  const auto us = std::make_shared<Client>(options_);
+void LiveServer::greet(mg_connection* connection) {
+  const auto us = std::make_shared<Client>();
   // The present frame may be old, for nobody may have watched: only newer ones are for it.
   us->sent = us->acknowledged = simulation_.frame()->number;
   const std::lock_guard writing(us->mutex);
@@ -258,7 +200,7 @@ void LiveServer::Implementation::greet(mg_connection* connection) {
   {
     const std::lock_guard lock(mutex_);
     // A crowd that comes at once may find the last place free together.
-    full = int(clients_.size()) >= options_.most_clients;
+    full = int(clients_.size()) >= most_clients;
     if (!full) clients_.emplace(connection, us);
   }
   if (full) {
@@ -271,7 +213,7 @@ void LiveServer::Implementation::greet(mg_connection* connection) {
 }
 
 /// Whether the connection may stay.
-bool LiveServer::Implementation::take(mg_connection* connection, int bits, std::string_view text) {
+bool LiveServer::take(mg_connection* connection, int bits, std::string_view text) {
   const std::shared_ptr<Client> us = client(connection);
   if (!us) return false;
   const int opcode = bits & 0x0f;
@@ -309,7 +251,7 @@ bool LiveServer::Implementation::take(mg_connection* connection, int bits, std::
   return true;
 }
 
-void LiveServer::Implementation::forget(const mg_connection* connection) {
+void LiveServer::forget(const mg_connection* connection) {
   std::shared_ptr<Client> us;
   {
     const std::lock_guard lock(mutex_);
@@ -326,7 +268,7 @@ void LiveServer::Implementation::forget(const mg_connection* connection) {
   simulation_.watched_by(clients());
 }
 
-void LiveServer::Implementation::frame_ready() {
+void LiveServer::frame_ready() {
   {
     const std::lock_guard lock(mutex_);
     work_ = true;
@@ -334,7 +276,7 @@ void LiveServer::Implementation::frame_ready() {
   wake_.notify_all();
 }
 
-void LiveServer::Implementation::stream() {
+void LiveServer::stream() {
   while (true) {
     ClientMap clients;
     {
@@ -355,8 +297,7 @@ void LiveServer::Implementation::stream() {
   }
 }
 
-void LiveServer::Implementation::send_frame(mg_connection* connection, Client& client,
-                                            const LiveFrame& frame) {
+void LiveServer::send_frame(mg_connection* connection, Client& client, const LiveFrame& frame) {
   if (client.epoch != frame.epoch) client.next_row = 0;
   client.epoch = frame.epoch;
   const LiveRows rows = simulation_.rows_from(client.next_row, rows_per_frame);
@@ -368,30 +309,13 @@ void LiveServer::Implementation::send_frame(mg_connection* connection, Client& c
   if (written <= 0) client.open = false;
 }
 
-LiveServer::LiveServer(Simulation& simulation, const Reference& reference, const std::string& title,
-                       const ServerOptions& options)
-    : implementation_(std::make_unique<Implementation>(simulation, reference, title, options)) {}
-
-LiveServer::~LiveServer() = default;
-
-void LiveServer::frame_ready() {
-  implementation_->frame_ready();
-}
-
-int LiveServer::port() const {
-  return implementation_->port();
-}
-
-const std::string& LiveServer::token() const {
-  return implementation_->access().token();
-}
-
 std::string LiveServer::url() const {
   return fmt::format("http://127.0.0.1:{}/?token={}", port(), token());
 }
 
 int LiveServer::clients() const {
-  return implementation_->clients();
+  const std::lock_guard lock(mutex_);
+  return int(clients_.size());
 }
 
 }  // namespace fingertip::studies::inline live

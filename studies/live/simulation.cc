@@ -155,11 +155,8 @@ void Simulation::adjust(const Adjust& order) {
     return;
   }
   LiveSettings settings = rig_.settings();
-  if (order.name == "speed") settings.speed = order.value;
-  if (order.name == "depth") settings.depth = order.value;
-  if (order.name == "natural_frequency") settings.natural_frequency = order.value;
-  if (order.name == "derivative_filter") settings.derivative_filter = order.value;
-  if (order.name == "bond_compensation") settings.bond_compensation = order.value;
+  for (const Slider& slider : sliders)
+    if (order.name == slider.name) settings.*slider.value = order.value;
   if (order.name == "contact_force") settings.contact_force = order.value;
   if (order.name == "controller") settings.controller = order.value != 0.0;
   rig_.set(settings);

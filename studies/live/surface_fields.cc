@@ -1,5 +1,6 @@
 #include "studies/live/surface_fields.h"
 
+#include <openssl/evp.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -30,31 +31,17 @@ constexpr int vtk_hexahedron = 12;
 
 /// Base64 (RFC 4648) until padding or the end.
 std::string decode_base64(std::string_view text) {
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3);
-  unsigned buffer = 0, bits = 0;
-  for (const char c : text) {
-    unsigned value = 0;
-    if (c >= 'A' && c <= 'Z')
-      value = unsigned(c - 'A');
-    else if (c >= 'a' && c <= 'z')
-      value = unsigned(c - 'a') + 26;
-    else if (c >= '0' && c <= '9')
-      value = unsigned(c - '0') + 52;
-    else if (c == '+')
-      value = 62;
-    else if (c == '/')
-      value = 63;
-    else
-      break;
-    buffer = (buffer << 6U) | value;
-    bits += 6;
-    if (bits >= 8) {
-      bits -= 8;
-      bytes.push_back(char((buffer >> bits) & 0xffU));
-    }
-  }
-  return bytes;
+  std::string padded(
+      text.substr(0, std::min(text.find('='), text.find_last_not_of(" \n\r\t") + 1)));
+  const std::size_t bytes = padded.size() * 3 / 4;
+  padded.resize((padded.size() + 3) / 4 * 4, 'A');
+  std::string decoded(padded.size() / 4 * 3, '\0');
+  if (EVP_DecodeBlock(reinterpret_cast<unsigned char*>(decoded.data()),
+                      reinterpret_cast<const unsigned char*>(padded.data()),
+                      int(padded.size())) < 0)
+    return {};
+  decoded.resize(bytes);
+  return decoded;
 }
 
 template <class Number>

@@ -52,8 +52,7 @@ class LivePage : public testing::Test {
     simulation_ = std::make_unique<studies::Simulation>(press(), true, 1.0, [this] {
       if (studies::LiveServer* server = listener_) server->frame_ready();
     });
-    server_ = std::make_unique<studies::LiveServer>(*simulation_, reference_, "test lattice",
-                                                    studies::ServerOptions{});
+    server_ = std::make_unique<studies::LiveServer>(*simulation_, reference_, "test lattice", 0);
     listener_ = server_.get();
     page_ = std::make_unique<browser::Chromium>(1280, 800);
     page_->open(server_->url());

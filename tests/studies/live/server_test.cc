@@ -99,7 +99,7 @@ class LiveServerTest : public testing::Test {
     simulation_ = std::make_unique<Simulation>(coarse_press(), true, 0.0, [this] {
       if (LiveServer* server = listener_) server->frame_ready();
     });
-    server_ = std::make_unique<LiveServer>(*simulation_, reference_, "test", ServerOptions{});
+    server_ = std::make_unique<LiveServer>(*simulation_, reference_, "test", 0);
     listener_ = server_.get();
   }
   void TearDown() override {
@@ -242,8 +242,8 @@ TEST_F(LiveServerTest, AHundredClientsDoNotBreakIt) {
   for (const auto& page : pages) {
     if (page->connected() && !page->closed()) served += page->wait_for(has_frame, 2000ms) ? 1 : 0;
   }
-  EXPECT_EQ(served, ServerOptions{}.most_clients);
-  EXPECT_EQ(server_->clients(), ServerOptions{}.most_clients);
+  EXPECT_EQ(served, most_clients);
+  EXPECT_EQ(server_->clients(), most_clients);
   pages.front()->send(R"({"type":"run"})");
   for (int i : {0, 10, 31})
     EXPECT_TRUE(
@@ -318,7 +318,6 @@ TEST_F(LiveServerTest, RandomBytesDoNotBreakIt) {
 }
 
 TEST_F(LiveServerTest, ATakenPortIsRefused) {
-  ServerOptions same;
-  same.port = server_->port();
-  EXPECT_THROW(LiveServer(*simulation_, reference_, "second", same), meshes::InvalidInput);
+  EXPECT_THROW(LiveServer(*simulation_, reference_, "second", server_->port()),
+               meshes::InvalidInput);
 }
