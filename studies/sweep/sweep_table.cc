@@ -13,6 +13,7 @@
 #include "meshes/tables/csv_table.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/config/loader.h"
+#include "studies/config/value_reader.h"
 #include "studies/files/folder_reader.h"
 #include "studies/files/mode_table.h"
 #include "studies/jobs/cache.h"
@@ -33,21 +34,19 @@ struct Row {
   meshes::CsvTable curve;                 ///< response.csv
 };
 
-/// Of the last row of response.csv, at the end of the press; with those of a lateral motion.
-constexpr const char* end_columns[] = {"indentation [m]", "normal_force [N]", "contact_radius [m]"};
-constexpr const char* lateral_columns[] = {"lateral_displacement [m]", "lateral_force_x [N]"};
-constexpr const char* lowest_frequency = "lowest_frequency [Hz]";
+/// Of the last row of response.csv, at the end of the press; from the fourth on those of a lateral
+/// motion. At last the lowest frequency.
+constexpr const char* answer_names[] = {"indentation [m]",     "normal_force [N]",
+                                        "contact_radius [m]",  "lateral_displacement [m]",
+                                        "lateral_force_x [N]", "lowest_frequency [Hz]"};
+constexpr std::size_t straight = 3, lateral = 5;
 
 /// The columns in which some row has its answer, in the order in which they are shown.
 std::vector<std::string> answer_columns(const std::vector<Row>& rows) {
   std::vector<std::string> columns;
-  const auto add_if_any = [&](const char* name) {
+  for (const char* name : answer_names)
     if (std::ranges::any_of(rows, [&](const Row& row) { return row.answers.contains(name); }))
       columns.emplace_back(name);
-  };
-  for (const char* name : end_columns) add_if_any(name);
-  for (const char* name : lateral_columns) add_if_any(name);
-  add_if_any(lowest_frequency);
   return columns;
 }
 
@@ -56,12 +55,6 @@ void flatten(const JsonEntry& node, const std::string& prefix, Row& row) {
     if (value.is_object()) flatten(value, prefix + name + ".", row);
     if (value.is_number()) row.values[prefix + name] = value.number();
   }
-}
-
-/// A text of TOML without its quotes.
-std::string bare(const std::string& literal) {
-  const bool quoted = literal.size() >= 2 && literal.front() == '"' && literal.back() == '"';
-  return quoted ? literal.substr(1, literal.size() - 2) : literal;
 }
 
 /// A curve whose cells are all numbers, or nothing.
@@ -77,15 +70,13 @@ meshes::CsvTable read_curve(const fs::path& file, FolderReader& reader) {
 /// What the point was computed for: force and contact at the end, or the lowest frequency.
 void read_answer(const fs::path& folder, Row& row, FolderReader& reader) {
   if (!row.curve.empty()) {
-    const auto take = [&](const char* name) {
-      if (row.curve.has(name)) row.answers[name] = row.curve.numbers(name).back();
-    };
-    for (const char* name : end_columns) take(name);
-    if (row.curve.has(lateral_columns[0]))  // only where the plane moved along itself
-      for (const char* name : lateral_columns) take(name);
+    const bool moved = row.curve.has(answer_names[straight]);  // along the plane
+    for (std::size_t i = 0; i < (moved ? lateral : straight); ++i)
+      if (const char* name = answer_names[i]; row.curve.has(name))
+        row.answers[name] = row.curve.numbers(name).back();
   }
   const meshes::CsvTable modes = reader.csv(folder / "modes.csv");
-  if (!modes.empty()) row.answers[lowest_frequency] = vibration_modes(modes).front().frequency;
+  if (!modes.empty()) row.answers[answer_names[lateral]] = vibration_modes(modes).front().frequency;
   std::erase_if(row.answers, [](const auto& entry) { return std::isnan(entry.second); });
 }
 
@@ -95,7 +86,7 @@ Row read_row(const JsonEntry& point, const std::vector<std::string>& axes, const
   Row row;
   row.id = text_at(point, "id");
   const JsonEntry settings = object_at(point, "settings");
-  for (const std::string& axis : axes) row.settings.push_back(bare(text_at(settings, axis)));
+  for (const std::string& axis : axes) row.settings.push_back(unquoted(text_at(settings, axis)));
   const std::size_t damage = reader.damage().size();
   const JsonEntry marker = reader.json(folder / row.id / marker_name);
   row.status = reader.attempt([&] { return text_if_any(marker, "status"); });
