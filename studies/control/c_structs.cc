@@ -71,11 +71,6 @@ void check(const lattice::Target& target) {
 
 }  // namespace
 
-std::optional<lattice::Target> set_point(const lattice::ControlTask& task, double time) {
-  if (!task.path) return {};
-  return task.path(time);
-}
-
 const lattice::Command& checked(const lattice::Command& command) {
   std::visit([](const auto& value) { check(value); }, command);
   return command;
@@ -98,7 +93,7 @@ fingertip_task c_task(const lattice::ControlTask& task) {
 }
 
 fingertip_measurement c_measurement(const lattice::Measurement& m,
-                                    const std::optional<lattice::Target>& set_point) {
+                                    const lattice::ControlTask& task) {
   fingertip_measurement c{};
   c.size = sizeof c;
   c.abi = FINGERTIP_CONTROLLER_ABI;
@@ -112,10 +107,10 @@ fingertip_measurement c_measurement(const lattice::Measurement& m,
     c.contact_radius = m.contact->radius;
     c.on_tip = c_wrench(m.contact->on_tip);
   }
-  if (set_point) {
+  if (task.path) {
+    const lattice::Target wanted = task.path(m.time);
     c.has_set_point = 1;
-    c.set_point = {c_pose(set_point->pose), c_twist(set_point->twist),
-                   c_twist(set_point->acceleration)};
+    c.set_point = {c_pose(wanted.pose), c_twist(wanted.twist), c_twist(wanted.acceleration)};
   }
   return c;
 }

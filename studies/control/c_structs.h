@@ -1,16 +1,11 @@
 /// Between the virtual control interface and the structs of its C twin.
 #pragma once
 
-#include <optional>
-
 #include "lattice/control/controller.h"
 #include "lattice/control/task.h"
 #include "studies/control/fingertip_controller.h"
 
 namespace fingertip::studies::inline control {
-
-/// Where the task's way is at `time` [s]; nothing for a task without one.
-std::optional<lattice::Target> set_point(const lattice::ControlTask& task, double time);
 
 /// `command` itself. Throws ControllerFailed when a component is not finite or an orientation is
 /// not of length one (to 1e-6).
@@ -18,7 +13,7 @@ const lattice::Command& checked(const lattice::Command& command);
 
 fingertip_task c_task(const lattice::ControlTask& task);
 fingertip_measurement c_measurement(const lattice::Measurement& measurement,
-                                    const std::optional<lattice::Target>& set_point);
+                                    const lattice::ControlTask& task);
 
 /// A command without an answer in it yet.
 fingertip_command empty_c_command();

@@ -125,8 +125,8 @@ std::string hello_line(const lattice::ControlTask& task, double timeout, bool re
       .dump();
 }
 
-std::string measurement_line(const lattice::Measurement& m,
-                             const std::optional<lattice::Target>& set_point, long cycle) {
+std::string measurement_line(const lattice::Measurement& m, const lattice::ControlTask& task,
+                             long cycle) {
   ordered_json line = {{"message", "measurement"},
                        {"cycle", cycle},
                        {"time", m.time},
@@ -142,7 +142,7 @@ std::string measurement_line(const lattice::Measurement& m,
                        {"force", list(m.contact->on_tip.force)},
                        {"torque", list(m.contact->on_tip.torque)}};
   }
-  if (set_point) line["set_point"] = object(*set_point);
+  if (task.path) line["set_point"] = object(task.path(m.time));
   return line.dump();
 }
 

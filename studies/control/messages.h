@@ -1,7 +1,6 @@
 /// The lines of the lock-step protocol (README: a table of them): one JSON object each.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,7 +16,7 @@ inline constexpr std::size_t longest_control_line = 65536;  ///< [bytes], withou
 /// the same double (at most 17 significant digits).
 std::string hello_line(const lattice::ControlTask& task, double timeout, bool resumed);
 std::string measurement_line(const lattice::Measurement& measurement,
-                             const std::optional<lattice::Target>& set_point, long cycle);
+                             const lattice::ControlTask& task, long cycle);
 std::string reset_line();
 std::string bye_line(const std::string& reason);
 

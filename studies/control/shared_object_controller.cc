@@ -82,7 +82,7 @@ void SharedObjectController::fail(const char* call, int code) const {
 }
 
 lattice::Command SharedObjectController::command(const lattice::Measurement& measurement) {
-  const fingertip_measurement seen = c_measurement(measurement, set_point(task_, measurement.time));
+  const fingertip_measurement seen = c_measurement(measurement, task_);
   fingertip_command answer = empty_c_command();
   const int code = library_->command(self_, &seen, &answer);
   if (code != FINGERTIP_OK) fail("command", code);

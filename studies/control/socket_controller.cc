@@ -124,8 +124,7 @@ void SocketController::check_silence() {
 }
 
 lattice::Command SocketController::exchange(const lattice::Measurement& measurement) {
-  const std::string line =
-      measurement_line(measurement, set_point(task_, measurement.time), cycle_);
+  const std::string line = measurement_line(measurement, task_, cycle_);
   if (client_) check_silence();
   bool lost = known_ && !client_;
   Clock::time_point deadline = after(known_ ? settings_.timeout : settings_.connect_timeout);

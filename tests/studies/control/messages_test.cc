@@ -42,7 +42,9 @@ TEST(Messages, NumbersArriveToTheLastBit) {
   lattice::Target way;
   way.pose = m.pose;
   way.acceleration.velocity = {1.0 / 19.0, 0.0, 1e-5};
-  const json line = json::parse(studies::measurement_line(m, way, 42));
+  lattice::ControlTask task;
+  task.path = [&](double) { return way; };
+  const json line = json::parse(studies::measurement_line(m, task, 42));
   EXPECT_EQ(line["message"], "measurement");
   EXPECT_EQ(line["cycle"], 42);
   EXPECT_EQ(line["time"].get<double>(), m.time);

@@ -29,8 +29,7 @@ class PidLaw final : public lattice::Controller {
     EXPECT_EQ(pid_start(&pid_, &order), 1);
   }
   lattice::Command command(const lattice::Measurement& measurement) override {
-    const fingertip_measurement seen =
-        studies::c_measurement(measurement, task_.path(measurement.time));
+    const fingertip_measurement seen = studies::c_measurement(measurement, task_);
     fingertip_command answer = studies::empty_c_command();
     answer.kind = FINGERTIP_COMMAND_WRENCH;
     pid_follow(&pid_, &seen, &answer.wrench);
