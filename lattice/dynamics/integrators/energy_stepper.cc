@@ -41,7 +41,7 @@ void EnergyStepper::step(const Drive& drive, double until) {
   if (steps_->outdated(cells)) steps_->update(finger_->state(), cells);
   const double stable = safe_step(*finger_, *steps_, left);
   const double floor = smallest_share * stable;
-  double wanted = next_ > 0.0 ? std::min(next_, stable) : stable;
+  double wanted = now_.next > 0.0 ? std::min(now_.next, stable) : stable;
   const Finger::Snapshot before = finger_->save();
   for (;;) {
     // Evenly through what is left, so that no crumb remains; the last one may be smaller.
@@ -52,8 +52,8 @@ void EnergyStepper::step(const Drive& drive, double until) {
     if (sound && (drift <= bound_ || tried <= floor)) {
       if (drift > bound_) ++count_.forced;
       accept(tried, tried >= wanted);
-      next_ = std::min(tried * std::clamp(factor(drift, bound_), 0.3, 1.5), stable);
-      next_ = std::max(next_, tried < wanted ? std::min(wanted, next_ * 2.0) : floor);
+      now_.next = std::min(tried * std::clamp(factor(drift, bound_), 0.3, 1.5), stable);
+      now_.next = std::max(now_.next, tried < wanted ? std::min(wanted, now_.next * 2.0) : floor);
       start_ = end_;
       return;
     }

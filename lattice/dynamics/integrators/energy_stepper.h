@@ -21,8 +21,6 @@ class EnergyStepper : public Stepper {
 
   void begin(const Drive& drive, double duration) override;
   void step(const Drive& drive, double until) override;
-  Memory memory() const override { return {next_}; }
-  void recall(const Memory& memory) override { next_ = memory[0]; }
   std::string explanation() const override;
 
  private:
@@ -32,7 +30,6 @@ class EnergyStepper : public Stepper {
   StepController* steps_;
   EnergyBalance balance_;
   double bound_;
-  double next_ = 0.0;  ///< the step to try [s]; 0: the stable one
   EnergyInstant start_, end_;
 };
 

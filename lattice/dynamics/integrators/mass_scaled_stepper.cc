@@ -18,8 +18,8 @@ constexpr double round_off = 1e-9;          // of a step that divides a period
 bool MassScaledStepper::stale() const {
   const CellExtremes& cells = finger_->extremes();
   if (!(cells.smallest_jacobian > 0.0)) throw CrushedCells("a cell was turned inside out");
-  return !finger_->mass_scaling() || steps_->outdated(cells) || changed_ > largest_change ||
-         strained_ > largest_strain;
+  return !finger_->mass_scaling() || steps_->outdated(cells) || now_.changed > largest_change ||
+         now_.strained > largest_strain;
 }
 
 /// How fast cells strain or turn, at most, as far as S depends on it [1/s].
@@ -30,17 +30,12 @@ double MassScaledStepper::swiftness() const {
                                          : assumed_swiftness;
 }
 
-void MassScaledStepper::recall(const Memory& memory) {
-  changed_ = memory[0];
-  strained_ = memory[1];
-}
-
 void MassScaledStepper::scale() {
   // One that neither the finger nor a saved state uses.
   std::shared_ptr<MassScaling>& scaling = made_[made_[0].use_count() > 1 ? 1 : 0];
   if (scaling.use_count() != 1) scaling = std::make_shared<MassScaling>(ground_);
   finger_->scale_masses(scaling);
-  changed_ = strained_ = 0.0;
+  now_.changed = now_.strained = 0.0;
 }
 
 /// Sees to it that step and scaling are right for what is left of the span.
@@ -62,8 +57,8 @@ void MassScaledStepper::begin(const Drive& /*drive*/, double duration) {
 void MassScaledStepper::step(const Drive& drive, double until) {
   prepare(until - finger_->time(), false);
   advance(*finger_, drive);
-  changed_ += finger_->step() * finger_->extremes().fastest;
-  strained_ += finger_->step() * swiftness();
+  now_.changed += finger_->step() * finger_->extremes().fastest;
+  now_.strained += finger_->step() * swiftness();
   accept(finger_->step(), true);
 }
 

@@ -24,8 +24,6 @@ class MassScaledStepper : public Stepper {
 
   void begin(const Drive& drive, double duration) override;
   void step(const Drive& drive, double until) override;
-  Memory memory() const override { return {changed_, strained_}; }
-  void recall(const Memory& memory) override;
 
  private:
   bool stale() const;
@@ -37,9 +35,6 @@ class MassScaledStepper : public Stepper {
   StepController* steps_;
   std::shared_ptr<ScalingGround> ground_;
   std::array<std::shared_ptr<MassScaling>, 2> made_;  ///< one may be the finger's
-  // Since the scaling was made, at most:
-  double changed_ = 0.0;   ///< change of a cell's volume
-  double strained_ = 0.0;  ///< strain or turn of a cell
 };
 
 }  // namespace fingertip::lattice::inline dynamics::inline integrators

@@ -30,7 +30,7 @@ constexpr int max_retries = 12;  // of a step that runs into inverted cells, eac
 class RungeKutta::Solver {
  public:
   Solver(Finger& finger, const StepController& steps, double tolerance,
-         std::optional<double> largest);
+         std::optional<double> largest, double& next);
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
@@ -40,7 +40,6 @@ class RungeKutta::Solver {
   double step(const Drive& drive);
   bool ended_span() const { return ended_span_; }
   long rejected() const { return rejected_; }
-  double next = 0.0;  ///< the step to try [s]
 
  private:
   static int rates(double time, N_Vector y, N_Vector y_dot, void* self);
@@ -50,6 +49,7 @@ class RungeKutta::Solver {
   void plan(double taken, bool failed);
   double largest_step() const;
 
+  double& next_;  ///< the step to try [s]
   Finger* finger_;
   MotionVector layout_;
   SUNContext context_ = nullptr;
@@ -69,8 +69,8 @@ class RungeKutta::Solver {
 };
 
 RungeKutta::Solver::Solver(Finger& finger, const StepController& steps, double tolerance,
-                           std::optional<double> largest)
-    : next(0.1 * steps.limit(finger.extremes())),
+                           std::optional<double> largest, double& next)
+    : next_(next = 0.1 * steps.limit(finger.extremes())),
       finger_(&finger),
       layout_(finger.model()),
       largest_(largest.value_or(0.0)),
@@ -148,7 +148,7 @@ void RungeKutta::Solver::begin(double duration) {
   span_ = duration;
   local_ = 0.0;
   start_ = finger_->time();
-  const double pieces = std::ceil(duration / std::min(next, duration) * (1.0 - 1e-12));
+  const double pieces = std::ceil(duration / std::min(next_, duration) * (1.0 - 1e-12));
   restart(0.0, duration / pieces);
 }
 
@@ -156,7 +156,7 @@ void RungeKutta::Solver::begin(double duration) {
 void RungeKutta::Solver::plan(double taken, bool failed) {
   double proposed = taken;
   ERKStepGetCurrentStep(memory_, &proposed);
-  next = ended_span_ ? (failed ? taken : std::max(next, taken)) : proposed;
+  next_ = ended_span_ ? (failed ? taken : std::max(next_, taken)) : proposed;
 }
 
 double RungeKutta::Solver::step(const Drive& drive) {
@@ -168,7 +168,7 @@ double RungeKutta::Solver::step(const Drive& drive) {
   plane_ = finger_->plane();
   plane_time_ = local_;
   ERKStepSetMaxStep(memory_, largest_step());
-  double planned = next;
+  double planned = next_;
   for (int retries = 0;; ++retries) {
     long before = 0, after = 0;
     ERKStepGetNumErrTestFails(memory_, &before);
@@ -211,7 +211,7 @@ void RungeKutta::Solver::take_over(const Drive& drive, double duration) {
 
 RungeKutta::RungeKutta(Finger& finger, const StepController& steps, double tolerance,
                        std::optional<double> largest)
-    : solver_(std::make_unique<Solver>(finger, steps, tolerance, largest)),
+    : solver_(std::make_unique<Solver>(finger, steps, tolerance, largest, now_.next)),
       finger_(&finger),
       tolerance_(tolerance) {}
 
@@ -229,13 +229,6 @@ void RungeKutta::step(const Drive& drive, double /*until*/) {
 
 void RungeKutta::end() {
   finger_->start_step();
-}
-
-Stepper::Memory RungeKutta::memory() const {
-  return {solver_->next};
-}
-void RungeKutta::recall(const Memory& memory) {
-  solver_->next = memory[0];
 }
 
 std::string RungeKutta::explanation() const {

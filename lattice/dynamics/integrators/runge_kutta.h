@@ -10,7 +10,7 @@ namespace fingertip::lattice::inline dynamics::inline integrators {
 ///   u' = v,  m v' = f(u, v),  and of the rod  c' = p/M,  q' = ½ (0, w) q,  p' = F,  L' = T,
 /// w = I(q)⁻¹ L, unless it is prescribed; q is kept at unit length where it is used. The ties act
 /// with their plain stiffness, without the inertia and the look ahead that Euler steps need
-/// (Surfaces::attempt), so that the solution has no step in it.
+/// (CutSurfaces::attempt), so that the solution has no step in it.
 ///
 /// A step is accepted when its estimated error, in root mean square over all unknowns relative to
 /// `tolerance` times their scales, is at most 1. Scales: of displacements a hundredth of the
@@ -32,8 +32,6 @@ class RungeKutta : public Stepper {
   void begin(const Drive& drive, double duration) override;
   void step(const Drive& drive, double until) override;
   void end() override;
-  Memory memory() const override;
-  void recall(const Memory& memory) override;
   std::string explanation() const override;
 
  private:

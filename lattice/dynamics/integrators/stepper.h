@@ -1,7 +1,6 @@
 /// How a finger is marched through time: who chooses the steps, and by which formula.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <string>
 #include <variant>
@@ -46,10 +45,14 @@ class Stepper {
   /// steps, that at the start of the last step.
   virtual void end() {}
 
-  /// In whatever meaning a stepper gives them; zeros: nothing is known yet.
-  using Memory = std::array<double, 4>;
-  virtual Memory memory() const { return {}; }
-  virtual void recall(const Memory& /*memory*/) {}
+  /// Zeros: nothing is known yet.
+  struct Memory {
+    double next = 0.0;  ///< the step to try where an error chooses it [s]
+    /// Of a cell since masses were scaled, at most: change of volume, and strain or turn.
+    double changed = 0.0, strained = 0.0;
+  };
+  const Memory& memory() const { return now_; }
+  void recall(const Memory& memory) { now_ = memory; }
 
   const StepCount& count() const { return count_; }
   /// How steps are chosen and how many there were, for people; empty for steps that the stability
@@ -60,6 +63,7 @@ class Stepper {
   void accept(double step, bool whole);
   std::string counted() const;
 
+  Memory now_;
   StepCount count_;
 };
 
