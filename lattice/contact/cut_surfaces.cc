@@ -1,7 +1,5 @@
 #include "lattice/contact/cut_surfaces.h"
 
-#include "lattice/contact/particle_surfaces.h"
-
 namespace fingertip::lattice::inline contact {
 
 CutSurfaces::CutSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law,
@@ -56,12 +54,6 @@ PlaneHold CutSurfaces::plane_hold(double step) {
 
 double CutSurfaces::energy(const State& state, const RodState& rod) const {
   return bond_energy(state, rod) + parts() * contact_.energy();
-}
-
-std::unique_ptr<Surfaces> make_surfaces(const LatticeModel& model, const Plane& plane,
-                                        const ContactLaw& law, Team& team) {
-  if (model.is_cut()) return std::make_unique<CutSurfaces>(model, plane, law, team);
-  return std::make_unique<ParticleSurfaces>(model, plane, law);
 }
 
 }  // namespace fingertip::lattice::inline contact

@@ -5,35 +5,33 @@
 #include <span>
 
 #include "lattice/contact/penalty_contact.h"
-#include "lattice/contact/surfaces.h"
 #include "lattice/contact/tie_inertia.h"
 #include "lattice/contact/tied_bond.h"
 
 namespace fingertip::lattice::inline contact {
 
 /// Tied bond to the rod (tied_bond.h) and penalty contact with the plane (penalty_contact.h).
-class CutSurfaces : public Surfaces {
+class CutSurfaces {
  public:
   CutSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law, Team& team);
 
-  std::unique_ptr<Surfaces> clone() const override { return std::make_unique<CutSurfaces>(*this); }
+  // What Surfaces have in common (surfaces.h).
   Wrench apply(const State& state, const RodState& rod, const Plane& plane, double step,
-               VectorField& force, double* stored) override;
-  Wrench correct(State&, const VectorField&, const Plane&, double step) override {
+               VectorField& force, double* stored);
+  Wrench correct(State&, const VectorField&, const Plane&, double step) {
     return {step * on_tip_.force, step * on_tip_.torque};
   }
-  double bond_energy(const State& state, const RodState& rod) const override {
+  double bond_energy(const State& state, const RodState& rod) const {
     return parts() * bond_.energy(state, rod);
   }
-  double energy(const State& state, const RodState& rod) const override;
-  int touching() const override { return parts() * contact_.touching(); }
-  int sliding() const override { return parts() * contact_.sliding(); }
-  ContactPatch patch() const override { return contact_.patch(); }
-  std::vector<PointLoad> point_loads(const State& state) const override {
+  double energy(const State& state, const RodState& rod) const;
+  int touching() const { return parts() * contact_.touching(); }
+  int sliding() const { return parts() * contact_.sliding(); }
+  ContactPatch patch() const { return contact_.patch(); }
+  std::vector<PointLoad> point_loads(const State& state) const {
     return contact_.point_loads(state);
   }
-  std::vector<std::uint8_t> held() const override { return contact_.held(); }
-  CutSurfaces* ties() override { return this; }
+  std::vector<std::uint8_t> held() const { return contact_.held(); }
 
   /// Inertia against the rod in steps of `step` [s], by increasing index.
   std::span<const BondInertia> bond_inertia(double step);

@@ -2,30 +2,30 @@
 #pragma once
 
 #include "lattice/contact/contact.h"
-#include "lattice/contact/surfaces.h"
+#include "lattice/contact/contact_patch.h"
+#include "lattice/contact/point_load.h"
 #include "meshes/press/press_response.h"
 
 namespace fingertip::lattice::inline contact {
 
 /// Ligaments (bond.h) and boundary particles that the plane anchors (contact.h).
-class ParticleSurfaces : public Surfaces {
+class ParticleSurfaces {
  public:
   ParticleSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law);
 
-  std::unique_ptr<Surfaces> clone() const override {
-    return std::make_unique<ParticleSurfaces>(*this);
-  }
+  // What Surfaces have in common (surfaces.h).
   Wrench apply(const State& state, const RodState& rod, const Plane& plane, double step,
-               VectorField& force, double* stored) override;
-  Wrench correct(State& state, const VectorField& force, const Plane& plane, double step) override;
-  double bond_energy(const State& state, const RodState& rod) const override;
-  double energy(const State& state, const RodState& rod) const override {
-    return bond_energy(state, rod);
-  }
-  int touching() const override { return contact_.anchored(); }
-  int sliding() const override { return contact_.sliding(); }
-  ContactPatch patch() const override { return {contact_.radius(), meshes::unknown}; }
-  std::vector<std::uint8_t> held() const override;
+               VectorField& force, double* stored);
+  Wrench correct(State& state, const VectorField& force, const Plane& plane, double step);
+  double bond_energy(const State& state, const RodState& rod) const;
+  double energy(const State& state, const RodState& rod) const { return bond_energy(state, rod); }
+  int touching() const { return contact_.anchored(); }
+  int sliding() const { return contact_.sliding(); }
+  /// The pressure of particles that touch by themselves is unknown.
+  ContactPatch patch() const { return {contact_.radius(), meshes::unknown}; }
+  /// None: the contact acts between steps.
+  std::vector<PointLoad> point_loads(const State& /*state*/) const { return {}; }
+  std::vector<std::uint8_t> held() const;
 
  private:
   const LatticeModel* model_;

@@ -43,7 +43,7 @@ Finger::Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane
 
 void Finger::load(const Snapshot& snapshot) {
   now_ = snapshot.memory;
-  surfaces_ = snapshot.surfaces->clone();
+  surfaces_ = *snapshot.surfaces;
 }
 
 void Finger::find_forces(double step) {
@@ -54,8 +54,11 @@ void Finger::find_forces(double step) {
   now_.extremes =
       internal_.note(now_.state, now_.time, now_.relaxing, force_, notes ? &cells : nullptr);
   if (!gravity_.isZero(0.0)) weigh_particles(force_);
-  now_.bond =
-      surfaces_->apply(now_.state, now_.rod, now_.plane, step, force_, notes ? &surfaces : nullptr);
+  now_.bond = std::visit(
+      [&](auto& s) {
+        return s.apply(now_.state, now_.rod, now_.plane, step, force_, notes ? &surfaces : nullptr);
+      },
+      surfaces_);
   hold(*model_, force_);
   if (!notes) return;
   noted_energy_.elastic = cells + branches + surfaces;
@@ -63,7 +66,7 @@ void Finger::find_forces(double step) {
 }
 
 CutSurfaces& Finger::ties() {
-  CutSurfaces* ties = surfaces_->ties();
+  CutSurfaces* ties = std::get_if<CutSurfaces>(&surfaces_);
   if (ties == nullptr) throw std::logic_error("these surfaces act between steps, not by forces");
   return *ties;
 }
@@ -231,7 +234,9 @@ void Finger::start_step() {
 }
 
 void Finger::close_step(const Vector3& on_rod) {
-  finish_step(now_.step, surfaces_->correct(now_.state, force_, now_.plane, now_.step), on_rod);
+  const Wrench impulse = std::visit(
+      [&](auto& s) { return s.correct(now_.state, force_, now_.plane, now_.step); }, surfaces_);
+  finish_step(now_.step, impulse, on_rod);
 }
 
 void Finger::finish_step(double duration, const Wrench& plane_impulse, const Vector3& on_rod) {
@@ -255,7 +260,7 @@ double Finger::kinetic_energy() const {
 double Finger::elastic_energy() const {
   Team team = team_;  // a handle
   return lattice::elastic_energy(*model_, now_.state, team) + branch_energy().stored +
-         surfaces_->energy(now_.state, now_.rod);
+         ask([&](const auto& s) { return s.energy(now_.state, now_.rod); });
 }
 
 }  // namespace fingertip::lattice::inline dynamics

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lattice/contact/cut_surfaces.h"
+#include "lattice/contact/surfaces.h"
 #include "lattice/dynamics/integrator.h"
 #include "lattice/dynamics/scaling/mass_scaling.h"
 #include "lattice/forces/forces.h"
@@ -57,6 +57,12 @@ struct FingerMemory {
 /// Of a part of a tip all sums are those of the whole (LatticeModel::sector).
 /// Steps allocate nothing. Not copyable; the model must outlive it.
 class Finger {
+  /// Of the surfaces, whichever they are.
+  template <typename Question>
+  auto ask(const Question& question) const {
+    return std::visit(question, surfaces_);
+  }
+
  public:
   /// `step` [s] must respect the stability bound (time_step.h); `threads` = 0 takes all cores. The
   /// finger must start clear of the plane.
@@ -118,14 +124,26 @@ class Finger {
   /// On particles and rod [m/s²]; none at the start.
   void set_gravity(const meshes::Vector3& gravity) { gravity_ = gravity; }
 
-  int touching() const { return surfaces_->touching(); }  ///< points on the plane
-  int sliding() const { return surfaces_->sliding(); }    ///< of these (coulomb)
-  ContactPatch contact_patch() const { return surfaces_->patch(); }
+  /// Points on the plane.
+  int touching() const {
+    return ask([](const auto& s) { return s.touching(); });
+  }
+  /// Of these (coulomb).
+  int sliding() const {
+    return ask([](const auto& s) { return s.sliding(); });
+  }
+  ContactPatch contact_patch() const {
+    return ask([](const auto& s) { return s.patch(); });
+  }
   /// Of the last step; none of a published finger.
-  std::vector<PointLoad> point_loads() const { return surfaces_->point_loads(now_.state); }
+  std::vector<PointLoad> point_loads() const {
+    return ask([&](const auto& s) { return s.point_loads(now_.state); });
+  }
   /// Per boundary particle of the model: 1 where it sticks to the plane or touches it without
   /// friction, 2 where it slides (coulomb), else 0.
-  std::vector<std::uint8_t> held() const { return surfaces_->held(); }
+  std::vector<std::uint8_t> held() const {
+    return ask([](const auto& s) { return s.held(); });
+  }
   /// Of the cells at the start of the last step.
   const CellExtremes& extremes() const { return now_.extremes; }
 
@@ -146,7 +164,10 @@ class Finger {
     double kinetic = 0.0, elastic = 0.0;
   };
   const Energy& noted_energy() const { return noted_energy_; }
-  double bond_energy() const { return surfaces_->bond_energy(now_.state, now_.rod); }  ///< [J]
+  /// [J]
+  double bond_energy() const {
+    return ask([&](const auto& s) { return s.bond_energy(now_.state, now_.rod); });
+  }
 
   /// Largest defect so far of (change of momentum of particles and rod) = (applied impulse) +
   /// (plane's impulse) over a step [N s]; the momenta are summed afresh from the velocities.
@@ -159,7 +180,7 @@ class Finger {
     FingerMemory memory;
     std::shared_ptr<const Surfaces> surfaces;
   };
-  Snapshot save() const { return {now_, surfaces_->clone()}; }
+  Snapshot save() const { return {now_, std::make_shared<const Surfaces>(surfaces_)}; }
   void load(const Snapshot& snapshot);
 
  private:
@@ -177,7 +198,7 @@ class Finger {
   const LatticeModel* model_;
   Team team_;
   InternalForces internal_;
-  std::unique_ptr<Surfaces> surfaces_;
+  Surfaces surfaces_;
   kernel::MoveParticles move_;
   Integrator integrator_;
   double tip_mass_;  ///< [kg]

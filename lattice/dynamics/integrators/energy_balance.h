@@ -18,7 +18,7 @@ struct EnergyInstant {
 };
 
 /// Takes energies without changing the finger. Costs two evaluations of the forces (one without
-/// damping) and one of the energy. Published surfaces have none (Surfaces::attempt).
+/// damping) and one of the energy. Published surfaces have none (CutSurfaces::attempt).
 class EnergyBalance {
  public:
   /// The finger must outlive it.

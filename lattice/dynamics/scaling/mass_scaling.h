@@ -114,7 +114,7 @@ class MassScaling {
                 Restraint& restraint) const;
 
   /// Finds the accelerations above from the forces on the particles [N], which are m a of particles
-  /// whose a is that of the forces by their inertia D (Surfaces::apply). They stay in `fields`.
+  /// whose a is that of the forces by their inertia D (surfaces.h). They stay in `fields`.
   Reactions accelerate(const State& state, const OuterLoads& outer, const VectorField& force,
                        Team& team, AccelerationFields& fields) const;
   /// The step with them. What the restraint keeps is to be taken from the plane's reaction.
