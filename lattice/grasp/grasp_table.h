@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <vector>
 
 #include "lattice/grasp/grip.h"
@@ -65,8 +64,5 @@ constexpr auto fields_of(const GraspRow*) {
                     field("point_friction_2 [N]", of_finger<1>(&Row::point_friction)),
                     field("inward_friction_2 [N]", of_finger<1>(&Row::inward_friction))};
 }
-
-/// A row per period, first line with names and units.
-void write_grasp_csv(const std::vector<GraspRow>& rows, const std::filesystem::path& file);
 
 }  // namespace fingertip::lattice::inline grasp

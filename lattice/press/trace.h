@@ -1,8 +1,6 @@
 /// The trace of a press: trace.csv.
 #pragma once
 
-#include <filesystem>
-#include <vector>
 
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
@@ -53,8 +51,5 @@ constexpr auto fields_of(const TraceRow*) {
                     field("rod_kinetic_energy [J]", &Row::rod_kinetic_energy),
                     field("elastic_energy [J]", &Row::elastic_energy)};
 }
-
-/// One row per controller period, first line with names and units.
-void write_trace_csv(const std::vector<TraceRow>& trace, const std::filesystem::path& file);
 
 }  // namespace fingertip::lattice::inline press

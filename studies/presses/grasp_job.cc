@@ -6,6 +6,7 @@
 #include "lattice/press/setup_fields.h"
 #include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
+#include "meshes/tables/table_rows.h"
 #include "source_hash.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/presses/journal.h"
@@ -52,7 +53,7 @@ void run_grasp_job(lattice::GraspSetup setup, const fs::path& folder, const JobC
   Journal<lattice::GraspOutcome> journal(
       folder, context, "grasping",
       [&](const lattice::GraspOutcome& outcome, const std::string& status) {
-        lattice::write_grasp_csv(outcome.rows, folder / "grasp.csv");
+        meshes::write_rows(outcome.rows, folder / "grasp.csv");
         meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
       });
   journal.run(

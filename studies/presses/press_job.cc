@@ -8,6 +8,7 @@
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/press_task.h"
 #include "meshes/tables/fields_json.h"
+#include "meshes/tables/table_rows.h"
 #include "source_hash.h"
 #include "studies/presses/controller_choice.h"
 #include "studies/presses/journal.h"
@@ -97,7 +98,7 @@ void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path
       folder, context, "pressing",
       [&](const lattice::PressOutcome& outcome, const std::string& status) {
         outcome.response.write_csv(folder / "response.csv");
-        lattice::write_trace_csv(outcome.trace, folder / "trace.csv");
+        meshes::write_rows(outcome.trace, folder / "trace.csv");
         meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
       });
   const lattice::PressOutcome outcome = journal.run([&](const lattice::PressObserver& observe) {

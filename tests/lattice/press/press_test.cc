@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "meshes/tables/table_rows.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
@@ -273,7 +274,7 @@ TEST(Press, WritesATraceWithNamesAndUnits) {
   lattice::TraceRow row;
   row.time = 0.25;
   row.anchored = 3;
-  lattice::write_trace_csv({row}, file);
+  meshes::write_rows(std::vector{row}, file);
   std::ifstream in(file);
   std::string names, values;
   std::getline(in, names);
