@@ -133,8 +133,8 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
       for (int k = 0; k < remembered; ++k)
         values[k] = share * values[k] + (before * value(first, k) + after * value(first + 1, k));
     }
-    /// One function for all sweeps: inlined in each it is half of their code, for 7 % (+-10) of those
-    /// that note, one in an interval.
+    /// One function for all sweeps: inlined in each it is half of their code, for 7 % (+-10) of
+    /// those that note, one in an interval.
     template <bool Noting>
     [[gnu::noinline]] void fade_from_note(Pack (&values)[remembered]) const {
       const History own = history;  // a copy that no store can alias

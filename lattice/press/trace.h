@@ -1,7 +1,6 @@
 /// The trace of a press: trace.csv.
 #pragma once
 
-
 #include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 

@@ -116,8 +116,8 @@ class Sweeps {
       : model_(tip(lattice::ModelKind::network, lattice::Kinematics::finite, per_radius)),
         state_(random_state(model_, 0.01, 0.01, 7)),
         force_(model_.points()),
-        sweep_(
-            lattice::kernel::select_cells(model_.cell_lattice.material.kind, lattice::kernel::CellTask::damped, 0)) {}
+        sweep_(lattice::kernel::select_cells(model_.cell_lattice.material.kind,
+                                             lattice::kernel::CellTask::damped, 0)) {}
 
   template <typename Scheduler>
   void operator()(Scheduler& scheduler) const {
