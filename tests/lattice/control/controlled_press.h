@@ -13,6 +13,7 @@
 #include "lattice/press/press.h"
 #include "lattice/press/static_press.h"
 #include "tests/lattice/fixtures.h"
+#include "tests/lattice/presses.h"
 
 namespace controlled {
 
@@ -27,12 +28,9 @@ using lattice::PressSetup;
 
 /// Stick; at speed far enough away that 50 ms pass before the touch.
 inline PressSetup press_of(ModelKind kind, int per_radius, double speed) {
-  PressSetup setup;
-  const bool finite = kind == ModelKind::network;
-  setup.lattice = settings_for(kind, finite ? Kinematics::finite : Kinematics::small, per_radius);
-  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  PressSetup setup = presses::setup_of(
+      {.model = kind, .per_radius = double(per_radius), .mode = meshes::DriveMode::pid});
   setup.protocol.speed = speed;
-  setup.threads = 1;
   if (speed > 0.02) setup.protocol.clearance = speed > 0.1 ? 15e-3 : 3e-3;
   return setup;
 }

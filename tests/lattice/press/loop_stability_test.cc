@@ -11,7 +11,7 @@
 #include "lattice/press/press_task.h"
 #include "lattice/statics/cut_lattice.h"
 #include "tests/fingers.h"
-#include "tests/lattice/fixtures.h"
+#include "tests/lattice/presses.h"
 
 using namespace fingertip;
 using lattice::HeldVibrations;
@@ -26,14 +26,12 @@ constexpr double pi = std::numbers::pi;
 
 PressSetup setup_of(const meshes::Geometry& geometry, int per_radius, double density,
                     double stiffer = 1.0) {
-  PressSetup setup;
-  setup.geometry = geometry;
+  PressSetup setup = presses::setup_of(
+      {.per_radius = double(per_radius), .mode = meshes::DriveMode::pid, .geometry = geometry});
   setup.rubber.youngs_modulus *= stiffer;
   setup.rubber.shear_modulus *= stiffer;
-  setup.lattice.spacing = geometry.tip_radius / per_radius;
   setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
   setup.rod.density = density;
-  setup.threads = 1;
   return setup;
 }
 

@@ -6,9 +6,9 @@
 
 #include "lattice/press/press.h"
 #include "lattice/press/static_press.h"
+#include "tests/lattice/presses.h"
 
 using namespace fingertip;
-using lattice::Kinematics;
 using lattice::ModelKind;
 using lattice::PressSetup;
 using meshes::ContactMode;
@@ -21,18 +21,9 @@ namespace {
 
 PressSetup press_on(const Obstacle& obstacle, ModelKind model, ContactMode contact,
                     double per_radius = 6) {
-  PressSetup setup;
-  setup.protocol.mode = DriveMode::equilibrium;
+  PressSetup setup = presses::setup_of(
+      {.model = model, .per_radius = per_radius, .contact = contact, .samples = {0.75e-3, 1.5e-3}});
   setup.protocol.obstacle = obstacle;
-  setup.protocol.contact = contact;
-  setup.protocol.samples = {0.75e-3, 1.5e-3};
-  setup.protocol.depth = 1.5e-3;
-  setup.lattice.model = model;
-  setup.lattice.kinematics = model == ModelKind::hookean ? Kinematics::small : Kinematics::finite;
-  setup.lattice.spacing = setup.geometry.tip_radius / per_radius;
-  setup.lattice.constants = model == ModelKind::published
-                                ? lattice::published_constants(setup.rubber, setup.lattice.spacing)
-                                : lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
   return setup;
 }
 

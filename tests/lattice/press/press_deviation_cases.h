@@ -10,7 +10,7 @@
 #include "lattice/press/press.h"
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/static_press.h"
-#include "tests/lattice/fixtures.h"
+#include "tests/lattice/presses.h"
 
 namespace press_deviation {
 
@@ -18,14 +18,12 @@ using namespace fingertip;
 
 /// From 0.05 to 0.3 cm, the paper's specimen and rubber.
 inline lattice::PressSetup press(lattice::ModelKind model, int per_radius, double speed) {
-  lattice::PressSetup setup;
-  const bool finite = model == lattice::ModelKind::network;
-  setup.lattice = fixtures::settings_for(
-      model, finite ? lattice::Kinematics::finite : lattice::Kinematics::small, per_radius);
-  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  lattice::PressSetup setup =
+      presses::setup_of({.model = model,
+                         .per_radius = double(per_radius),
+                         .mode = meshes::DriveMode::pid,
+                         .samples = {0.5e-3, 1e-3, 1.5e-3, 2e-3, 2.5e-3, 3e-3}});
   setup.protocol.speed = speed;
-  setup.protocol.samples = {0.5e-3, 1e-3, 1.5e-3, 2e-3, 2.5e-3, 3e-3};
-  setup.threads = 1;
   return setup;
 }
 

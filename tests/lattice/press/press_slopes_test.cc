@@ -13,6 +13,8 @@
 
 #include "lattice/press/static_press.h"
 #include "lattice/statics/cut_lattice.h"
+#include "tests/expectations.h"
+#include "tests/lattice/presses.h"
 #include "tests/lattice/statics/body_sums.h"
 
 using namespace fingertip;
@@ -31,19 +33,17 @@ namespace {
 constexpr double cm = 1e-2;
 
 /// k3 takes part, so that every constant counts.
-PressSetup press_at(int per_radius, const std::vector<double>& samples_cm, ContactMode contact,
+PressSetup press_at(int per_radius, std::vector<double> samples_cm, ContactMode contact,
                     ModelKind model, Kinematics kinematics) {
-  PressSetup setup;
-  setup.lattice.model = model;
-  setup.lattice.kinematics = kinematics;
-  setup.lattice.spacing = setup.geometry.tip_radius / per_radius;
+  for (double& sample : samples_cm) sample *= cm;
+  PressSetup setup = presses::setup_of({.model = model,
+                                        .per_radius = double(per_radius),
+                                        .contact = contact,
+                                        .samples = samples_cm,
+                                        .kinematics = kinematics});
   setup.lattice.constants =
       lattice::hookean_constants(setup.rubber, setup.lattice.spacing,
                                  0.2 * setup.lattice.spacing * setup.rubber.shear_modulus);
-  setup.protocol.mode = meshes::DriveMode::equilibrium;
-  setup.protocol.contact = contact;
-  for (const double sample : samples_cm) setup.protocol.samples.push_back(sample * cm);
-  setup.protocol.depth = setup.protocol.samples.back();
   return setup;
 }
 
@@ -303,7 +303,8 @@ TEST(PressParameters, ChangeOneByOne) {
 TEST(PressParameters, RefusesWhatTheModelDoesNotHave) {
   PressSetup setup = press_at(6, {0.1}, ContactMode::stick, ModelKind::central, Kinematics::small);
   const auto refused = [&](PressParameter p) {
-    EXPECT_THROW(lattice::run_static_press_with_slopes(setup, {p}), meshes::InvalidInput);
+    EXPECT_TRUE(refuses<meshes::InvalidInput>(
+        [&] { lattice::run_static_press_with_slopes(setup, {p}); }, std::string(name(p))));
   };
   refused(PressParameter::kappa);
   refused(PressParameter::lambda);

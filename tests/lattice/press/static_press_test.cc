@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lattice/statics/cut_lattice.h"
+#include "tests/lattice/presses.h"
 
 using namespace fingertip;
 using lattice::Kinematics;
@@ -26,19 +27,13 @@ constexpr double cm = 1e-2;
 PressSetup press_at(int per_radius, std::vector<double> samples_cm,
                     ContactMode contact = ContactMode::frictionless,
                     ModelKind model = ModelKind::hookean,
-                    Kinematics kinematics = Kinematics::small) {
-  PressSetup setup;
-  setup.lattice.model = model;
-  setup.lattice.kinematics = kinematics;
-  setup.lattice.spacing = setup.geometry.tip_radius / per_radius;
-  setup.lattice.constants = model == ModelKind::published
-                                ? lattice::published_constants(setup.rubber, setup.lattice.spacing)
-                                : lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
-  setup.protocol.mode = meshes::DriveMode::equilibrium;
-  setup.protocol.contact = contact;
-  for (const double sample : samples_cm) setup.protocol.samples.push_back(sample * cm);
-  setup.protocol.depth = setup.protocol.samples.back();
-  return setup;
+                    std::optional<Kinematics> kinematics = {}) {
+  for (double& sample : samples_cm) sample *= cm;
+  return presses::setup_of({.model = model,
+                            .per_radius = double(per_radius),
+                            .contact = contact,
+                            .samples = samples_cm,
+                            .kinematics = kinematics});
 }
 
 PressSample last_sample(const PressSetup& setup) {
@@ -50,12 +45,7 @@ lattice::LatticeBody body_in_sectors(const PressSetup& setup, int sectors) {
 }
 
 void expect_same(const PressSample& a, const PressSample& b, double share, double length) {
-  EXPECT_NEAR(a.normal_force, b.normal_force, share * b.normal_force);
-  EXPECT_NEAR(a.lateral_force_x, b.lateral_force_x, share * b.normal_force);
-  EXPECT_NEAR(a.lateral_force_y, b.lateral_force_y, share * b.normal_force);
-  EXPECT_NEAR(a.torque_x, b.torque_x, share * b.normal_force * length);
-  EXPECT_NEAR(a.torque_y, b.torque_y, share * b.normal_force * length);
-  EXPECT_NEAR(a.torque_z, b.torque_z, share * b.normal_force * length);
+  presses::expect_same_load(a, b, share, length);
   EXPECT_NEAR(a.contact_radius, b.contact_radius, share * length);
   EXPECT_NEAR(a.max_pressure, b.max_pressure, share * b.max_pressure);
 }
@@ -104,9 +94,8 @@ TEST(StaticPress, SticksLikeTheContinuum) {
 
 /// Law A of the continuum, good to some 0.3 %.
 TEST(StaticPress, NetworkAgreesWithLawA) {
-  const auto outcome =
-      lattice::run_static_press(press_at(8, {0.05, 0.1, 0.2, 0.3, 0.35}, ContactMode::frictionless,
-                                         ModelKind::network, Kinematics::finite));
+  const auto outcome = lattice::run_static_press(
+      press_at(8, {0.05, 0.1, 0.2, 0.3, 0.35}, ContactMode::frictionless, ModelKind::network));
   const std::vector<double> truth_gf = {1.038, 3.535, 13.15, 29.74, 41.50};
   for (std::size_t i = 0; i < truth_gf.size(); ++i) {
     EXPECT_NEAR(outcome.response.samples()[i].normal_force / gf / truth_gf[i], 1.0,
@@ -125,8 +114,7 @@ TEST(StaticPress, PressureAndRadiusAtLargeStrain) {
   };
   for (const Truth& truth : {Truth{ContactMode::frictionless, 0.6578, 41.98},
                              Truth{ContactMode::stick, 0.6488, 50.26}}) {
-    const PressSample sample =
-        last_sample(press_at(8, {0.3}, truth.contact, ModelKind::network, Kinematics::finite));
+    const PressSample sample = last_sample(press_at(8, {0.3}, truth.contact, ModelKind::network));
     EXPECT_NEAR(sample.contact_radius / cm / truth.radius_cm, 1.0, 0.025);
     EXPECT_NEAR(sample.max_pressure / (gf / (cm * cm)) / truth.pressure_gf_cm2, 1.0, 0.075);
   }
@@ -307,9 +295,9 @@ TEST(StaticPress, GridTurnedByARightAngleChangesNothing) {
 /// then, and lateral forces vanish by symmetry.
 TEST(StaticPress, PublishedLatticeIsPressedOnItsParticles) {
   const auto stick = lattice::run_static_press(
-      press_at(8, {0.05, 0.1, 0.3}, ContactMode::stick, ModelKind::published, Kinematics::finite));
-  const auto free = lattice::run_static_press(press_at(8, {0.05, 0.1}, ContactMode::frictionless,
-                                                       ModelKind::published, Kinematics::finite));
+      press_at(8, {0.05, 0.1, 0.3}, ContactMode::stick, ModelKind::published));
+  const auto free = lattice::run_static_press(
+      press_at(8, {0.05, 0.1}, ContactMode::frictionless, ModelKind::published));
   EXPECT_EQ(stick.sectors, 1);
   EXPECT_EQ(stick.cells, 0U);
   for (std::size_t i = 0; i < 2; ++i) {
