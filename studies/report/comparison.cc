@@ -1,5 +1,6 @@
-/// CurveForce curves of several runs against the first one.
+/// Force curves of several runs against the first one.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "studies/report/chapters/continuum/continuum_chapters.h"
 #include "studies/report/chapters/models/model_chapters.h"
 #include "studies/report/chapters/press/press_chapters.h"
+#include "studies/report/page/terminal.h"
 #include "studies/report/page/words.h"
 #include "studies/report/report.h"
 #include "studies/report/report_parts.h"
@@ -20,69 +22,72 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_csv(const Comparison& comparison, const fs::path& file) {
-  const std::vector<ComparedCurve>& curves = comparison.curves;
+constexpr const char* above = "outside top center horizontal";
+
+using Cells = std::vector<std::string>;
+
+/// Columns of each curve, of the first one's force alone: its name before each of `titles`.
+Cells with_curves(Cells heads, const Comparison& comparison, const Cells& titles) {
+  for (const ComparedCurve& curve : comparison.curves)
+    for (const std::string& title : titles) {
+      heads.push_back(meshes::csv_cell(curve.label + " " + title));
+      if (&curve == &comparison.curves.front()) break;
+    }
+  return heads;
+}
+
+/// Force and difference of every curve, of the first one the force alone.
+Cells with_forces(Cells cells, const std::vector<ComparedForce>& forces, bool tell_interpolated) {
+  for (const ComparedForce& force : forces) {
+    cells.push_back(meshes::to_text(force.force.value));
+    if (&force == &forces.front()) continue;
+    cells.push_back(meshes::to_text(force.difference));
+    if (tell_interpolated)
+      cells.push_back(if_known(force.force.value, force.force.interpolated ? "1" : "0"));
+  }
+  return cells;
+}
+
+void write_lines(const std::vector<Cells>& lines, const fs::path& file) {
   meshes::write_atomically(file, [&](std::ostream& out) {
-    out << "indentation [m]";
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      out << ',' << meshes::csv_cell(curves[i].label + " normal_force [N]");
-      if (i > 0)
-        out << ',' << meshes::csv_cell(curves[i].label + " relative_difference") << ','
-            << meshes::csv_cell(curves[i].label + " interpolated");
-    }
-    out << '\n';
-    for (std::size_t d = 0; d < comparison.depths.size(); ++d) {
-      out << meshes::to_text(comparison.depths[d]);
-      for (std::size_t i = 0; i < curves.size(); ++i) {
-        const ComparedForce& cell = comparison.rows[d][i];
-        out << ',' << meshes::to_text(cell.force.value);
-        if (i > 0) out << ',' << meshes::to_text(cell.difference) << ',';
-        if (i > 0 && std::isfinite(cell.force.value)) out << (cell.force.interpolated ? 1 : 0);
-      }
-      out << '\n';
-    }
+    for (const Cells& cells : lines) out << fmt::format("{}\n", fmt::join(cells, ","));
   });
+}
+
+void write_csv(const Comparison& comparison, const fs::path& file) {
+  std::vector<Cells> lines{
+      with_curves({"indentation [m]"}, comparison,
+                  {"normal_force [N]", "relative_difference", "interpolated"})};
+  for (std::size_t d = 0; d < comparison.depths.size(); ++d)
+    lines.push_back(with_forces({meshes::to_text(comparison.depths[d])}, comparison.rows[d], true));
+  write_lines(lines, file);
 }
 
 /// What followed the first loading.
 void write_following(const Comparison& comparison, const fs::path& file) {
   if (comparison.following.empty()) return;
-  const std::vector<ComparedCurve>& curves = comparison.curves;
-  meshes::write_atomically(file, [&](std::ostream& out) {
-    out << "stage,time [s],indentation [m]";
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      out << ',' << meshes::csv_cell(curves[i].label + " normal_force [N]");
-      if (i > 0) out << ',' << meshes::csv_cell(curves[i].label + " relative_difference");
-    }
-    out << '\n';
-    for (const FollowingRow& row : comparison.following) {
-      out << meshes::to_text(row.stage) << ',' << meshes::to_text(row.time) << ','
-          << meshes::to_text(row.indentation);
-      for (std::size_t i = 0; i < curves.size(); ++i) {
-        out << ',' << meshes::to_text(row.forces[i].force.value);
-        if (i > 0) out << ',' << meshes::to_text(row.forces[i].difference);
-      }
-      out << '\n';
-    }
-  });
+  std::vector<Cells> lines{with_curves({"stage", "time [s]", "indentation [m]"}, comparison,
+                                       {"normal_force [N]", "relative_difference"})};
+  for (const FollowingRow& row : comparison.following)
+    lines.push_back(with_forces(
+        {meshes::to_text(row.stage), meshes::to_text(row.time), meshes::to_text(row.indentation)},
+        row.forces, false));
+  write_lines(lines, file);
 }
 
 /// Forces in time of those that have both, from the end of the first loading on.
 Panel following_panel(const Comparison& comparison) {
-  Panel panel;
-  panel.x_label = "time since the end of the first loading [s]";
-  panel.y_label = shown_units().force.label("normal force");
-  panel.key = "outside top center horizontal";
+  const ShownUnit& force = shown_units().force;
+  Panel panel{.x_label = "time since the end of the first loading [s]",
+              .y_label = force.label("normal force"),
+              .key = above};
   for (const ComparedCurve& curve : comparison.curves) {
     const auto following = curve.response.following();
     if (following.empty() || std::isnan(following.front().time)) continue;
     const meshes::PressSample& begin = curve.response.pressing().back();
-    Series series{curve.label, "",         {0.0}, {shown_units().force(begin.normal_force)},
-                  {},          curve.style};
-    for (const meshes::PressSample& sample : following) {
-      series.x.push_back(sample.time - begin.time);
-      series.y.push_back(shown_units().force(sample.normal_force));
-    }
+    Series series{curve.label, "", curve.style, {0.0}, {force(begin.normal_force)}};
+    for (const meshes::PressSample& sample : following)
+      series.add(sample.time - begin.time, force(sample.normal_force));
     panel.series.push_back(std::move(series));
   }
   return panel;
@@ -101,80 +106,63 @@ void draw_monotone(Series& series, const meshes::PressResponse& response) {
 }
 
 Panel force_panel(const std::vector<ComparedCurve>& curves) {
-  Panel panel;
-  panel.x_label = shown_units().length.label("indentation");
-  panel.y_label = shown_units().force.label("normal force");
-  panel.key = "outside top center horizontal";
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    Series series{curves[i].label, "", {}, {}, {}, curves[i].style};
-    for (const meshes::PressSample& sample : curves[i].response.pressing()) {
-      series.x.push_back(shown_units().length(sample.indentation));
-      series.y.push_back(shown_units().force(sample.normal_force));
-    }
-    draw_monotone(series, curves[i].response);
-    panel.series.push_back(std::move(series));
+  Panel panel = over_indentation(shown_units().force.label("normal force"), above);
+  for (const ComparedCurve& curve : curves) {
+    panel.series.push_back(force_curve(curve.label, "", curve.style, curve.response.pressing()));
+    draw_monotone(panel.series.back(), curve.response);
   }
   return panel;
 }
 
 /// The lateral motions that followed presses; without series when none did.
 Panel lateral_panel(const std::vector<ComparedCurve>& curves) {
-  Panel panel;
-  panel.x_label = shown_units().length.label("lateral displacement");
-  panel.y_label = shown_units().force.label("lateral force");
-  panel.key = "outside top center horizontal";
-  for (const ComparedCurve& curve : curves) {
-    Series series{curve.label, "", {}, {}, {}, curve.style};
-    for (const meshes::PressSample& sample : curve.response.sliding()) {
-      series.x.push_back(shown_units().length(sample.lateral_displacement));
-      series.y.push_back(shown_units().force(sample.lateral_force_x));
-    }
-    if (!series.x.empty()) panel.series.push_back(std::move(series));
-  }
+  using meshes::PressSample;
+  const ShownUnit &length = shown_units().length, &force = shown_units().force;
+  Panel panel{.x_label = length.label("lateral displacement"),
+              .y_label = force.label("lateral force"),
+              .key = above};
+  for (const ComparedCurve& compared : curves)
+    if (const auto sliding = compared.response.sliding(); !sliding.empty())
+      panel.series.push_back(curve(compared.label, "", compared.style, sliding,
+                                   in(length, &PressSample::lateral_displacement),
+                                   in(force, &PressSample::lateral_force_x)));
   return panel;
 }
 
 Panel difference_panel(const Comparison& comparison) {
-  const std::vector<ComparedCurve>& curves = comparison.curves;
-  Panel panel;
-  panel.x_label = shown_units().length.label("indentation");
-  panel.y_label = "relative difference [%]";
-  panel.key = "outside top center horizontal";
-  for (std::size_t i = 1; i < curves.size(); ++i) {
-    Series series{curves[i].label, "", {}, {}, {}, curves[i].style};
-    for (std::size_t d = 0; d < comparison.depths.size(); ++d) {
-      if (std::isnan(comparison.rows[d][i].difference)) continue;
-      series.x.push_back(shown_units().length(comparison.depths[d]));
-      series.y.push_back(100.0 * comparison.rows[d][i].difference);
-    }
+  Panel panel = over_indentation("relative difference [%]", above);
+  for (std::size_t i = 1; i < comparison.curves.size(); ++i) {
+    Series series{comparison.curves[i].label, "", comparison.curves[i].style};
+    for (std::size_t d = 0; d < comparison.depths.size(); ++d)
+      if (const double difference = comparison.rows[d][i].difference; !std::isnan(difference))
+        series.add(shown_units().length(comparison.depths[d]), 100.0 * difference);
     panel.series.push_back(std::move(series));
   }
   return panel;
 }
 
+/// A force, from the second on with its difference from the first.
+void add_forces(std::vector<Cell>& row, const std::vector<ComparedForce>& forces, bool graded) {
+  const ShownUnit& unit = shown_units().force;
+  for (const ComparedForce& force : forces) {
+    const std::string value = number(unit(force.force.value));
+    if (std::isnan(force.force.value))
+      row.emplace_back();
+    else if (&force == &forces.front())
+      row.push_back(amount_cell(force.force.value, unit));
+    else
+      row.emplace_back((force.force.interpolated ? "≈ " : "") + value, percent(force.difference),
+                       graded ? grade(force.difference) : Grade::none);
+  }
+}
+
 Table difference_table(const Comparison& comparison) {
-  const std::vector<ComparedCurve>& curves = comparison.curves;
-  Table table;
-  table.graded = std::ranges::none_of(comparison.remarks, &ComparisonRemark::meaningless);
-  table.header = {plain("Indentation", unit_name(shown_units().length))};
-  for (const ComparedCurve& curve : curves) table.header.push_back({curve.label, "", Grade::none});
+  Table table{heads({"Indentation\n" + unit_name(shown_units().length)}),
+              std::ranges::none_of(comparison.remarks, &ComparisonRemark::meaningless)};
+  for (const ComparedCurve& curve : comparison.curves) table.header.emplace_back(curve.label);
   for (std::size_t d = 0; d < comparison.depths.size(); ++d) {
-    std::vector<Cell> row{
-        {fmt::format("{:.4g}", shown_units().length(comparison.depths[d])), "", Grade::none}};
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      const ComparedForce& cell = comparison.rows[d][i];
-      const std::string about = cell.force.interpolated ? "≈ " : "";
-      if (std::isnan(cell.force.value))
-        row.push_back({"", "", Grade::none});
-      else if (i == 0)
-        row.push_back({number(shown_units().force(cell.force.value)),
-                       si_note(cell.force.value, "N"), Grade::none});
-      else
-        row.push_back({about + number(shown_units().force(cell.force.value)),
-                       percent(cell.difference),
-                       table.graded ? grade(cell.difference) : Grade::none});
-    }
-    table.rows.push_back(std::move(row));
+    table.rows.push_back({fmt::format("{:.4g}", shown_units().length(comparison.depths[d]))});
+    add_forces(table.rows.back(), comparison.rows[d], table.graded);
   }
   return table;
 }
@@ -217,81 +205,39 @@ std::string summary_sentence(const Comparison& comparison) {
   return sentences("answer_comparison", words);
 }
 
-/// The columns of a terminal's table.
-std::string table_text(const Comparison& comparison) {
-  constexpr std::size_t shown = 20;
-  const std::vector<ComparedCurve>& curves = comparison.curves;
-  std::string text = fmt::format("{:>12}{:>26}", shown_units().length.label("depth"),
-                                 shown_units().force.label(curves.front().label.substr(0, shown)));
-  for (std::size_t i = 1; i < curves.size(); ++i)
-    text += fmt::format("{:>24}", curves[i].label.substr(0, shown));
-  text += "\n";
-  for (std::size_t d = 0; d < comparison.depths.size(); ++d) {
-    text += fmt::format("{:>12}{:>26}", shown_units().length.decimals(comparison.depths[d]),
-                        shown_units().force.decimals(comparison.rows[d].front().force.value));
-    for (std::size_t i = 1; i < curves.size(); ++i) {
-      const ComparedForce& cell = comparison.rows[d][i];
-      text +=
-          fmt::format("{:>24}", std::isnan(cell.difference)
-                                    ? std::string()
-                                    : fmt::format("{}{:+.2f} %", cell.force.interpolated ? "~" : "",
-                                                  100.0 * cell.difference));
-    }
-    text += "\n";
-  }
-  return text;
-}
-
 /// Lateral forces at displacements that every run has that moved on at full depth.
-std::string lateral_text(const std::vector<ComparedCurve>& curves) {
+Table lateral_table(const std::vector<ComparedCurve>& curves) {
+  const ShownUnit &length = shown_units().length, &force = shown_units().force;
+  Table table{heads({"Lateral displacement\n" + unit_name(length)})};
   std::vector<const ComparedCurve*> sliding;
   for (const ComparedCurve& curve : curves)
     if (!curve.response.sliding().empty()) sliding.push_back(&curve);
-  if (sliding.size() < 2) return {};
-  std::string text = shown_units().force.label("lateral force at full depth") + "\n" +
-                     fmt::format("{:>12}", shown_units().length.label("lateral"));
-  for (const ComparedCurve* curve : sliding)
-    text += fmt::format("{:>24}", curve->label.substr(0, 23));
-  text += "\n";
+  if (sliding.size() < 2) return table;
+  for (const ComparedCurve* curve : sliding) table.header.emplace_back(curve->label);
   for (const meshes::PressSample& wanted : sliding.front()->response.sliding()) {
     const double place = wanted.lateral_displacement;
-    std::string row = fmt::format("{:>12}", shown_units().length.decimals(place));
-    std::size_t found = 0;
+    std::vector<Cell> row{number(length(place))};
     for (const ComparedCurve* curve : sliding)
       for (const meshes::PressSample& sample : curve->response.sliding())
-        if (std::abs(sample.lateral_displacement - place) <= rounding_of_depths * std::abs(place)) {
-          row += fmt::format("{:>24}", shown_units().force.decimals(sample.lateral_force_x));
-          ++found;
-        }
-    if (found == sliding.size()) text += row + "\n";
+        if (std::abs(sample.lateral_displacement - place) <= rounding_of_depths * std::abs(place))
+          row.emplace_back(number(force(sample.lateral_force_x)));
+    if (row.size() == table.header.size()) table.rows.push_back(std::move(row));
   }
-  return text;
+  return table;
 }
 
 /// What followed the first loading, moment by moment.
-std::string following_text(const Comparison& comparison) {
-  const std::vector<ComparedCurve>& curves = comparison.curves;
-  if (comparison.following.empty()) return {};
-  std::string text = fmt::format("after the first loading\n{:>6}{:>12}{:>14}{:>24}", "stage",
-                                 "time [s]", shown_units().length.label("depth"),
-                                 shown_units().force.label(curves.front().label.substr(0, 18)));
-  for (std::size_t i = 1; i < curves.size(); ++i)
-    text += fmt::format("{:>24}", curves[i].label.substr(0, 20));
-  text += "\n";
+Table following_table(const Comparison& comparison) {
+  const ShownUnit& length = shown_units().length;
+  Table table{heads({"Stage", "Time\ns", "Indentation\n" + unit_name(length)})};
+  for (const ComparedCurve& curve : comparison.curves)
+    table.header.emplace_back(curve.label, unit_name(shown_units().force));
   for (const FollowingRow& row : comparison.following) {
-    text += fmt::format("{:>6}{:>12}{:>14}{:>24}", row.stage,
-                        std::isnan(row.time) ? "" : fmt::format("{:.4f}", row.time),
-                        shown_units().length.decimals(row.indentation),
-                        shown_units().force.decimals(row.forces.front().force.value));
-    for (std::size_t i = 1; i < curves.size(); ++i) {
-      const double difference = row.forces[i].difference;
-      text += fmt::format("{:>24}", std::isnan(difference)
-                                        ? std::string()
-                                        : fmt::format("{:+.2f} %", 100.0 * difference));
-    }
-    text += "\n";
+    table.rows.push_back(
+        {number(row.stage), number(row.time), fmt::format("{:.4g}", length(row.indentation))});
+    add_forces(table.rows.back(), row.forces, false);
   }
-  return text;
+  return table;
 }
 
 /// "press: the fit failed its own tests: ..."
@@ -302,22 +248,19 @@ std::vector<std::string> rejected_curves(const Comparison& comparison) {
   return found;
 }
 
-std::string screen_text(const Comparison& comparison) {
+std::string screen_text(const Comparison& comparison, const Chapter& chapter) {
   const std::vector<ComparedCurve>& curves = comparison.curves;
   std::string text;
   for (const std::string& reason : rejected_curves(comparison))
     text += "NOT ACCEPTED: " + in_shown_units(reason, Spelling::terminal) + "\n";
-  text += table_text(comparison);
-  text += fmt::format("{:>38}", "relative L2 difference");
-  for (std::size_t i = 1; i < curves.size(); ++i) {
-    const double l2 = overall(curves[i], curves.front()).l2;
-    text += fmt::format("{:>24}", std::isnan(l2) ? "-" : fmt::format("{:.2f} %", 100.0 * l2));
-  }
-  text += "\n";
-  if (const std::string names = interpolated_curves(comparison); !names.empty())
-    text += "~: interpolated between samples of " + names + "\n";
-  text += lateral_text(curves);
-  text += following_text(comparison);
+  text += tables_text(chapter, {"differences"});
+  for (std::size_t i = 1; i < curves.size(); ++i)
+    if (const double l2 = overall(curves[i], curves.front()).l2; !std::isnan(l2))
+      text += fmt::format("relative L2 difference of {}: {:.2f} %\n", curves[i].label, 100.0 * l2);
+  const Table lateral = lateral_table(curves), following = following_table(comparison);
+  if (!lateral.rows.empty())
+    text += shown_units().force.label("lateral force at full depth") + "\n" + table_text(lateral);
+  if (!following.rows.empty()) text += "after the first loading\n" + table_text(following);
   for (const ComparisonRemark& remark : comparison.remarks)
     text += (remark.meaningless ? "WARNING: " : "note: ") + remark.text + "\n";
   return text;
@@ -368,7 +311,7 @@ ComparisonResult write_comparison(const std::vector<fs::path>& runs, const fs::p
   publish(page, out_folder, "comparison.html");
   write_csv(comparison, out_folder / "comparison.csv");
   write_following(comparison, out_folder / "comparison_following.csv");
-  return {screen_text(comparison), reader.damage()};
+  return {screen_text(comparison, page.chapters.front()), reader.damage()};
 }
 
 }  // namespace fingertip::studies::report

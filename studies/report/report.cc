@@ -1,8 +1,10 @@
 #include "studies/report/report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
+#include <functional>
 
 #include "studies/report/chapters/bench/bench_page.h"
 #include "studies/report/chapters/continuum/continuum_chapters.h"
@@ -68,17 +70,14 @@ std::string with_case(const RunData& run, const std::string& subject) {
 
 /// "k1 = 12.30 N/m, …." of a calibration.json.
 std::string constants_words(const calibration::FitConstants& constants) {
-  std::string text;
-  for (const auto& [name, value] : {std::pair{"k1", constants.k1},
-                                    {"k2", constants.k2},
-                                    {"k3", constants.k3},
-                                    {"kappa", constants.kappa}}) {
-    const bool stress = std::string_view(name) == "kappa";
-    const ShownUnit& unit = stress ? shown_units().stress : shown_units().stiffness;
-    if (std::isfinite(value))
-      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, with_unit(value, unit));
-  }
-  return text.empty() ? text : text + ".";
+  const ShownUnits& units = shown_units();
+  std::vector<std::string> words{
+      if_known(constants.k1, "k1 = " + with_unit(constants.k1, units.stiffness)),
+      if_known(constants.k2, "k2 = " + with_unit(constants.k2, units.stiffness)),
+      if_known(constants.k3, "k3 = " + with_unit(constants.k3, units.stiffness)),
+      if_known(constants.kappa, "kappa = " + with_unit(constants.kappa, units.stress))};
+  std::erase(words, "");
+  return words.empty() ? "" : fmt::format("{}.", fmt::join(words, ", "));
 }
 
 /// Makes the pages of a run, each from the chapters that can be made: damage in one leaves the
@@ -132,72 +131,69 @@ class PageMaker {
     page.chapters.push_back(reader_.attempt([&]() -> Chapter { return make(); }));
   }
 
-  Page headed(const std::string& title, const std::string& subtitle) {
+  using Makers = std::vector<std::function<Chapter()>>;
+
+  /// A page of these chapters, the verdict before them and the provenance behind.
+  Page made(const std::string& title, const std::string& subtitle,
+            const std::function<std::string()>& answer, const Makers& chapters) {
     Page page;
     page.title = run_.summary.title.empty() ? title : run_.summary.title;
     page.subtitle = words([&] { return with_case(run_, subtitle); });
+    page.answer = words(answer);
     add(page, [&] { return verdict_chapter(run_); });
+    for (const auto& chapter : chapters) add(page, chapter);
+    add(page, [&] { return provenance_chapter(run_); });
     return page;
   }
 
-  void end(Page& page) {
-    add(page, [&] { return provenance_chapter(run_); });
+  /// Without an answer of its own.
+  Page made(const std::string& title, const std::string& subtitle, const Makers& chapters) {
+    return made(
+        title, subtitle, [] { return std::string(); }, chapters);
   }
 
   Page core_page() {
-    Page page = headed("Soft fingertip: lattice against continuum",
-                       "Validation of mass-spring fingertips against a continuum of the same "
-                       "specimen");
-    constexpr Chapter (*chapters[])(const RunData&) = {
-        force_chapter,     control_chapter,      snapshots_chapter,   elasticity_chapter,
-        pictures_chapter,  published_chapter,    equilibrium_chapter, reasons_chapter,
-        continuum_chapter, verification_chapter, cost_chapter};
-    for (const auto chapter : chapters) add(page, [&] { return chapter(run_); });
-    end(page);
+    Makers chapters;
+    for (Chapter (*const chapter)(const RunData&) :
+         {static_cast<Chapter (*)(const RunData&)>(force_chapter), control_chapter,
+          snapshots_chapter, elasticity_chapter, pictures_chapter, published_chapter,
+          equilibrium_chapter, reasons_chapter, continuum_chapter, verification_chapter,
+          cost_chapter})
+      chapters.emplace_back([this, chapter] { return chapter(run_); });
+    Page page = made(
+        "Soft fingertip: lattice against continuum",
+        "Validation of mass-spring fingertips against a continuum of the same specimen", chapters);
     page.not_run = missing_parts(run_);
     return page;
   }
 
   /// A study has its presses to show, and nothing of the core case.
   Page study_page() {
-    Page page = headed("Soft fingertip: a study of lattices",
-                       "A study of mass-spring fingertips against a continuum of "
-                       "the same specimen");
-    add(page, [&] { return variants_chapter(run_); });
-    end(page);
-    return page;
+    return made("Soft fingertip: a study of lattices",
+                "A study of mass-spring fingertips against a continuum of the same specimen",
+                {[&] { return variants_chapter(run_); }});
   }
 
   /// Fits have neither presses of models nor a continuum of their own.
   Page calibration_page() {
-    Page page = headed("Soft fingertip: fitted to curves",
-                       "What curves of force tell of a rubber or of a lattice, and what they leave "
-                       "open");
-    end(page);
-    return page;
+    return made("Soft fingertip: fitted to curves",
+                "What curves of force tell of a rubber or of a lattice, and what they leave open",
+                Makers{});
   }
 
   /// Presses under controllers, or with prescribed motion, one integrator beside the other.
   Page control_page() {
     const std::vector<MovingPress> presses =
         reader_.attempt([&] { return read_moving_presses(run_, reader_); });
-    const bool integrators = compares_integrators(presses);
-    Page page = integrators ? headed("Soft fingertip: integrators",
-                                     "What time steps of a mass-spring fingertip cost and err")
-                            : headed("Soft fingertip: virtual control",
-                                     "Presses of mass-spring fingertips under controllers that "
-                                     "take them for hardware");
-    if (integrators) {
-      add(page, [&] { return integrators_chapter(presses); });
-    } else {
-      for (const auto chapter :
-           {static_cast<Chapter (*)(const std::vector<MovingPress>&)>(control_chapter),
-            static_cast<Chapter (*)(const std::vector<MovingPress>&)>(snapshots_chapter),
-            speed_chapter})
-        add(page, [&] { return chapter(presses); });
-    }
-    end(page);
-    return page;
+    if (compares_integrators(presses))
+      return made("Soft fingertip: integrators",
+                  "What time steps of a mass-spring fingertip cost and err",
+                  {[&] { return integrators_chapter(presses); }});
+    return made(
+        "Soft fingertip: virtual control",
+        "Presses of mass-spring fingertips under controllers that take them for hardware",
+        {[&] { return control_chapter(presses); }, [&] { return snapshots_chapter(presses); },
+         [&] { return speed_chapter(presses); }});
   }
 
   std::vector<GraspRun> case_grasps() {
@@ -206,11 +202,8 @@ class PageMaker {
 
   /// A block between two fingers; of the verb `grasp` itself, or of a case.
   Page grasp_page(const std::vector<GraspRun>& grasps) {
-    Page page = headed("Soft fingertips: a grasp", "Two mass-spring fingertips lift a rigid block");
-    page.answer = words([&] { return grasp_answer(grasps); });
-    add(page, [&] { return grasp_chapter(grasps); });
-    end(page);
-    return page;
+    return made("Soft fingertips: a grasp", "Two mass-spring fingertips lift a rigid block",
+                [&] { return grasp_answer(grasps); }, {[&] { return grasp_chapter(grasps); }});
   }
 
   /// The run of `press` itself, where it took time.
@@ -218,87 +211,76 @@ class PageMaker {
     return run_.models.empty() && std::filesystem::exists(run_.folder / "trace.csv");
   }
 
-  Page press_page() {
+  MovingPress own_press() {
     MovingPress press = read_moving_press(run_.folder, "press", reader_);
-    press.style = numbered_style(0);
-    press.style.point = 0;
+    press.style = numbered_style(0).as_line();
     press.pictured = true;
-    Page page = headed("Soft fingertip: a press under its controller",
-                       "A mass-spring fingertip pressed against a plane");
-    page.answer = joined(words([&] { return press_answer(press.response); }),
-                         words([&] { return control_answer({press}); }));
-    add(page, [&] { return press_chapter(press.response, {}, press.trace); });
-    add(page, [&] { return program_chapter(press.response, press); });
-    add(page, [&] {
-      return real_time_chapter(
-          reader_.take<RealTimeRecord>(reader_.json(run_.folder / real_time_name)));
-    });
-    add(page, [&] { return control_chapter(std::vector{press}); });
-    add(page, [&] { return snapshots_chapter(std::vector{press}); });
-    end(page);
-    return page;
+    return press;
+  }
+
+  Page press_page() {
+    const std::vector<MovingPress> presses{own_press()};
+    const MovingPress& press = presses.front();
+    const std::string forces = words([&] { return press_answer(press.response); });
+    return made(
+        "Soft fingertip: a press under its controller",
+        "A mass-spring fingertip pressed against a plane",
+        [&] { return joined(forces, control_answer(presses)); },
+        {[&] { return press_chapter(press.response, {}, press.trace); },
+         [&] { return program_chapter(press.response, press); },
+         [&] {
+           return real_time_chapter(
+               reader_.take<RealTimeRecord>(reader_.json(run_.folder / real_time_name)));
+         },
+         [&] { return control_chapter(presses); }, [&] { return snapshots_chapter(presses); }});
   }
 
   /// The run of a static `press`.
   Page static_page() {
-    Page page = headed("Soft fingertip: a press at rest",
-                       "A mass-spring fingertip in equilibrium with what it touches");
-    page.answer = words([&] { return press_answer(run_.response); });
-    MovingPress press = read_moving_press(run_.folder, "press", reader_);
-    press.pictured = true;
-    add(page, [&] { return press_chapter(run_.response, run_.contact); });
-    add(page, [&] { return program_chapter(run_.response, press); });
-    add(page, [&] { return sliding_chapter(run_.response); });
-    add(page, [&] { return snapshots_chapter(std::vector{press}); });
-    end(page);
-    return page;
+    const std::vector<MovingPress> presses{own_press()};
+    return made("Soft fingertip: a press at rest",
+                "A mass-spring fingertip in equilibrium with what it touches",
+                [&] { return press_answer(run_.response); },
+                {[&] { return press_chapter(run_.response, run_.contact); },
+                 [&] { return program_chapter(run_.response, presses.front()); },
+                 [&] { return sliding_chapter(run_.response); },
+                 [&] { return snapshots_chapter(presses); }});
   }
 
   /// The run of `reference` itself.
   Page reference_page() {
-    Page page =
-        headed("Soft fingertip: the continuum", "A deal.II continuum pressed on its obstacle");
-    page.answer = words([&] { return press_answer(run_.reference); });
-    add(page, [&] { return force_chapter(run_); });
-    add(page, [&] { return program_chapter(run_.reference, {}); });
-    add(page, [&] { return sliding_chapter(run_.reference); });
-    for (const auto chapter : {continuum_chapter, pictures_chapter, cost_chapter})
-      add(page, [&] { return chapter(run_); });
-    end(page);
-    return page;
+    return made(
+        "Soft fingertip: the continuum", "A deal.II continuum pressed on its obstacle",
+        [&] { return press_answer(run_.reference); },
+        {[&] { return force_chapter(run_); }, [&] { return program_chapter(run_.reference, {}); },
+         [&] { return sliding_chapter(run_.reference); }, [&] { return continuum_chapter(run_); },
+         [&] { return pictures_chapter(run_); }, [&] { return cost_chapter(run_); }});
   }
 
   Page modes_page() {
-    Page page = headed("Soft fingertip: natural vibrations",
-                       "Frequencies and shapes of the finger bonded to a rod that stands still");
-    page.answer = words([&] { return modes_answer(run_.modes); });
-    add(page, [&] { return modes_chapter(run_.modes); });
-    end(page);
-    return page;
+    return made("Soft fingertip: natural vibrations",
+                "Frequencies and shapes of the finger bonded to a rod that stands still",
+                [&] { return modes_answer(run_.modes); },
+                {[&] { return modes_chapter(run_.modes); }});
   }
 
   /// The run of a `calibrate` that fitted laws to material tests.
   Page law_page() {
     const LawResult laws = reader_.attempt([&] { return read_laws(run_.folder, reader_); });
-    Page page;
-    page.title = "Soft fingertip: laws of a rubber";
-    page.subtitle = words(
-        [&] { return with_case(run_, "Laws fitted to material tests, and what they predict"); });
+    Page page = made("Soft fingertip: laws of a rubber",
+                     "Laws fitted to material tests, and what they predict",
+                     [&] { return law_answer(laws); }, {[&] { return law_chapter(laws); }});
     refuse(page, laws.file.failed);
-    page.answer = words([&] { return law_answer(laws); });
-    add(page, [&] { return law_chapter(laws); });
-    end(page);
     page.not_run = missing_law_parts(laws);
     return page;
   }
 
   /// A case on material tests.
   Page materials_page() {
-    Page page = headed("Soft fingertip: laws of rubbers",
-                       "Laws fitted to material tests, and what they predict");
     const MaterialsData data = reader_.attempt([&] { return read_materials(run_, reader_); });
-    add(page, [&] { return materials_chapter(data); });
-    end(page);
+    Page page = made("Soft fingertip: laws of rubbers",
+                     "Laws fitted to material tests, and what they predict",
+                     {[&] { return materials_chapter(data); }});
     for (const MaterialsData::Fit& fit : data.fits)
       if (fit.result.empty())
         page.not_run.push_back({"Laws of " + fit.label, fit.folder + "/laws.json"});
@@ -307,15 +289,13 @@ class PageMaker {
 
   /// The run of a `calibrate` that fitted moduli.
   Page moduli_page() {
-    Page page;
-    page.title = "Soft fingertip: spring constants for a rubber";
-    page.subtitle = words(
-        [&] { return with_case(run_, "The lattice whose elastic constants are the rubber's"); });
-    page.answer = joined(words([&] { return constants_words(run_.moduli_fit.constants); }),
-                         words([&] { return as_shown(run_.moduli_fit.statement); }));
-    add(page, [&] { return elasticity_chapter(run_); });
-    end(page);
-    return page;
+    return made("Soft fingertip: spring constants for a rubber",
+                "The lattice whose elastic constants are the rubber's",
+                [&] {
+                  return joined(constants_words(run_.moduli_fit.constants),
+                                as_shown(run_.moduli_fit.statement));
+                },
+                {[&] { return elasticity_chapter(run_); }});
   }
 
   /// The chapters on fits come before the provenance, the last.

@@ -48,8 +48,8 @@ struct ComparisonResult {
 ComparisonResult write_comparison(const std::vector<std::filesystem::path>& runs,
                                   const std::filesystem::path& out_folder);
 
-/// The verdict table of a `validate` run folder as plain ASCII for a terminal: per
-/// model the elastic constants and the force error at each depth, then the criteria.
+/// What the page of a `validate` or `calibrate` run folder tells in its main tables, for a terminal,
+/// then the criteria.
 /// Throws meshes::InvalidInput like write_report, and for damaged files.
 std::string verdict_text(const std::filesystem::path& run_folder);
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "studies/report/chapters/continuum/continuum_chapters.h"
@@ -11,6 +10,7 @@
 #include "studies/report/chapters/fit/materials_chapter.h"
 #include "studies/report/chapters/models/model_chapters.h"
 #include "studies/report/chapters/press/press_chapters.h"
+#include "studies/report/page/terminal.h"
 #include "studies/report/page/words.h"
 #include "studies/report/report.h"
 #include "studies/report/report_parts.h"
@@ -20,27 +20,10 @@
 namespace fingertip::studies::report {
 namespace {
 
-double deviation(double value, double target) {
-  return value / target - 1.0;
-}
-
-/// Index of the depth with the smallest (sign -1) or largest (sign 1) finite force error; the
-/// number of depths when there is none.
-std::size_t extreme(const ModelData& model, double sign) {
-  const std::vector<double>& errors = model.force_error;
-  std::size_t found = errors.size();
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (!std::isfinite(errors[i])) continue;
-    if (found == errors.size() || sign * errors[i] > sign * errors[found]) found = i;
-  }
-  return found;
-}
-
 /// Largest |force error|; infinite without one, so that such models come last.
 double largest_error(const ModelData& model) {
-  double largest = -1.0;
-  for (double error : model.force_error) largest = std::fmax(largest, std::abs(error));
-  return largest < 0.0 ? std::numeric_limits<double>::infinity() : largest;
+  const double largest = largest_magnitude(model.force_error);
+  return std::isnan(largest) ? std::numeric_limits<double>::infinity() : largest;
 }
 
 /// How far a model's force is off: the least and the greatest error, or one at all depths.
@@ -49,17 +32,18 @@ Words description_of(const RunData& run, const ModelData& model) {
   words["model"] = model.name;
   for (const char* name : {"error", "least", "least_depth", "most", "most_depth"}) words[name] = "";
   const std::vector<double>& errors = model.force_error;
-  const std::size_t least = extreme(model, -1.0), most = extreme(model, 1.0);
-  words["unknown"] = least == errors.size();
-  if (least == errors.size()) return words;
-  if (errors[most] - errors[least] < 5e-4) {
-    words["error"] = percent(errors[most]);
+  const double* most = largest_in(errors, [](double error) { return error; });
+  const double* least = largest_in(errors, [](double error) { return -error; });
+  words["unknown"] = most == nullptr;
+  if (most == nullptr) return words;
+  if (*most - *least < 5e-4) {
+    words["error"] = percent(*most);
     return words;
   }
-  words["least"] = percent(errors[least]);
-  words["least_depth"] = length(run.depths[least]);
-  words["most"] = percent(errors[most]);
-  words["most_depth"] = length(run.depths[most]);
+  words["least"] = percent(*least);
+  words["least_depth"] = length(run.depths[std::size_t(least - errors.data())]);
+  words["most"] = percent(*most);
+  words["most_depth"] = length(run.depths[std::size_t(most - errors.data())]);
   return words;
 }
 
@@ -80,145 +64,83 @@ std::string criteria_sentence(const RunData& run) {
 
 struct Constant {
   const char* label;
-  const char* ascii;
-  double Moduli::*value;
-  double Target::*target;
+  double ModuliEntry::*value;
+  double TargetEntry::*target;
+
+  bool is_ratio() const { return value == &ModuliEntry::nu_100; }
 };
 constexpr Constant constants_shown[] = {
-    {"E₁₀₀", "E_100", &Moduli::E_100, &Target::youngs_modulus},
-    {"E₁₁₀", "E_110", &Moduli::E_110, &Target::youngs_modulus},
-    {"E₁₁₁", "E_111", &Moduli::E_111, &Target::youngs_modulus},
-    {"G", "G", &Moduli::G, &Target::shear_modulus},
-    {"ν₁₀₀", "nu_100", &Moduli::nu_100, &Target::poissons_ratio},
-    {"K", "K", &Moduli::K, &Target::bulk_modulus},
+    {"E₁₀₀", &ModuliEntry::E_100, &TargetEntry::youngs_modulus},
+    {"E₁₁₀", &ModuliEntry::E_110, &TargetEntry::youngs_modulus},
+    {"E₁₁₁", &ModuliEntry::E_111, &TargetEntry::youngs_modulus},
+    {"G", &ModuliEntry::G, &TargetEntry::shear_modulus},
+    {"ν₁₀₀", &ModuliEntry::nu_100, &TargetEntry::poissons_ratio},
+    {"K", &ModuliEntry::K, &TargetEntry::bulk_modulus},
 };
-
-bool is_ratio(const Constant& constant) {
-  return constant.value == &Moduli::nu_100;
-}
-
-Cell constant_cell(const Constant& constant, double value, double target) {
-  const double error = deviation(value, target);
-  const double shown = is_ratio(constant) ? value : shown_units().stress(value);
-  return {number(shown), percent(error), grade(error)};
-}
 
 /// Shown number, and below it what it is in the other system: the paper gives its rubber in gf and
 /// cm.
 Cell in_both(double value, ShownUnit ShownUnits::*quantity) {
   const bool paper = shown_units().system == UnitSystem::paper;
   const ShownUnits& other = units_of(paper ? UnitSystem::si : UnitSystem::paper);
-  return plain(with_unit(value, shown_units().*quantity), with_unit(value, other.*quantity));
+  return {with_unit(value, shown_units().*quantity), with_unit(value, other.*quantity)};
 }
 
-Cell target_cell(const Constant& constant, double target) {
-  if (is_ratio(constant)) return {number(target), "", Grade::none};
-  return in_both(target, &ShownUnits::stress);
-}
-
-/// A row per model below the target's.
-Table model_table(const RunData& run, std::vector<Cell> header, std::vector<Cell> target,
-                  const std::function<void(const ModelData&, std::vector<Cell>&)>& fill) {
-  Table table;
-  table.graded = true;
-  table.header = std::move(header);
-  table.rows.push_back(std::move(target));
-  for (const ModelData& model : run.models) {
-    table.rows.push_back(
-        {plain(model_label(model.name), model.status == "ok" ? "" : model.status)});
-    fill(model, table.rows.back());
-  }
-  return table;
+Cell model_cell(const ModelData& model) {
+  return {model_label(model.name), trouble(model.status)};
 }
 
 Table constants_table(const RunData& run) {
-  std::vector<Cell> header{plain("Model")}, target{plain("Target", "rubber, continuum")};
+  Table table{{"Model"}, true};
+  std::vector<Cell> target{{"Target", "rubber, continuum"}};
   for (const Constant& constant : constants_shown) {
-    header.push_back(plain(constant.label));
-    target.push_back(target_cell(constant, run.target.*constant.target));
+    const double value = run.target.*constant.target;
+    table.header.emplace_back(constant.label);
+    target.push_back(constant.is_ratio() ? number(value) : in_both(value, &ShownUnits::stress));
   }
-  header.push_back(plain("Real time", "factor"));
-  target.push_back(plain(""));
-  return model_table(
-      run, std::move(header), std::move(target), [&](const ModelData& model, auto& row) {
-        for (const Constant& constant : constants_shown)
-          row.push_back(
-              constant_cell(constant, model.moduli.*constant.value, run.target.*constant.target));
-        row.push_back(plain(number(model.real_time_factor, 3)));
-      });
-}
-
-Table force_table(const RunData& run) {
-  std::vector<Cell> header{plain("Model")}, target{plain("Continuum")};
-  for (const double depth : run.depths) {
-    const double f = force_at(run.reference, depth);
-    header.push_back(plain("F", shown_units().length.text(depth)));
-    target.push_back(std::isfinite(f) ? in_both(f, &ShownUnits::force) : plain("–"));
-  }
-  header.push_back(plain("F", "rel. L²"));
-  target.push_back(plain(""));
-  return model_table(
-      run, std::move(header), std::move(target), [](const ModelData& model, auto& row) {
-        for (const double error : model.force_error)
-          row.push_back({percent(error), "", grade(error)});
-        row.push_back({percent_magnitude(model.l2_error), "", grade(model.l2_error)});
-      });
-}
-
-Table criteria_table(const RunData& run) {
-  Table table;
-  table.header = {{"Criterion", "", Grade::none},
-                  {"Value", "", Grade::none},
-                  {"Limit", "", Grade::none},
-                  {"Result", "", Grade::none}};
-  for (const CriterionEntry& criterion : run.summary.criteria) {
-    table.rows.push_back({{criterion.name, "", Grade::none},
-                          {number(criterion.value, 3), "", Grade::none},
-                          {number(criterion.limit, 3), "", Grade::none},
-                          {criterion.passed ? "✓ met" : "✕ not met", "", Grade::none}});
+  table.header.emplace_back("Real time", "factor");
+  table.rows.push_back(std::move(target));
+  table.rows.back().emplace_back();
+  for (const ModelData& model : run.models) {
+    std::vector<Cell> row{model_cell(model)};
+    for (const Constant& constant : constants_shown) {
+      const double value = model.moduli.*constant.value;
+      const double error = value / (run.target.*constant.target) - 1.0;
+      row.emplace_back(number(constant.is_ratio() ? value : shown_units().stress(value)),
+                       percent(error), grade(error));
+    }
+    row.emplace_back(number(model.real_time_factor, 3));
+    table.rows.push_back(std::move(row));
   }
   return table;
 }
 
-/// Pads ASCII text on the left to `width`.
-std::string cell(const std::string& text, int width) {
-  return fmt::format("{:>{}}", text, width);
-}
-
-std::string plain_percent(double fraction) {
-  return std::isfinite(fraction) ? fmt::format("{:+.1f} %", 100.0 * fraction) : "-";
-}
-
-std::string plain_number(double value, const char* format) {
-  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
-}
-
-std::string text_table(const RunData& run) {
-  std::string text = fmt::format("{:<12}", "model");
-  for (const Constant& constant : constants_shown) text += cell(constant.ascii, 8);
-  for (double depth : run.depths) text += cell("F " + shown_units().length.text(depth), 11);
-  text += cell("real time", 11) + "\n" + fmt::format("{:<12}", "target");
-  const auto shown = [](const Constant& constant, double value) {
-    return is_ratio(constant) ? plain_number(value, "{:.4f}")
-                              : plain_number(shown_units().stress(value), "{:.2f}");
-  };
-  for (const Constant& constant : constants_shown)
-    text += cell(shown(constant, run.target.*constant.target), 8);
-  for (double depth : run.depths) {
-    text += cell(plain_number(shown_units().force(force_at(run.reference, depth)), "{:.4g} ") +
-                     std::string(shown_units().force.ascii),
-                 11);
+Table force_table(const RunData& run) {
+  Table table{{"Model"}, true};
+  std::vector<Cell> target{"Continuum"};
+  for (const double depth : run.depths) {
+    const double f = force_at(run.reference, depth);
+    table.header.emplace_back("F", shown_units().length.text(depth));
+    target.push_back(std::isfinite(f) ? in_both(f, &ShownUnits::force) : "–");
   }
-  text += "\n";
+  table.header.emplace_back("F", "rel. L²");
+  table.rows.push_back(std::move(target));
+  table.rows.back().emplace_back();
   for (const ModelData& model : run.models) {
-    text += fmt::format("{:<12}", model.name);
-    for (const Constant& constant : constants_shown)
-      text += cell(shown(constant, model.moduli.*constant.value), 8);
-    for (double error : model.force_error) text += cell(plain_percent(error), 11);
-    text += cell(plain_number(model.real_time_factor, "{:.3g}"), 11) + "\n";
+    std::vector<Cell> row{model_cell(model)};
+    for (const double error : model.force_error) row.push_back(error_cell(error));
+    row.push_back(magnitude_cell(model.l2_error));
+    table.rows.push_back(std::move(row));
   }
-  return text + fmt::format("moduli in {}; F: force of the continuum, error of the models\n",
-                            shown_units().stress.ascii);
+  return table;
+}
+
+Table criteria_table(const RunData& run) {
+  Table table{heads({"Criterion", "Value", "Limit", "Result"})};
+  for (const CriterionEntry& criterion : run.summary.criteria)
+    table.rows.push_back({criterion.name, number(criterion.value, 3), number(criterion.limit, 3),
+                          criterion.passed ? "✓ met" : "✕ not met"});
+  return table;
 }
 
 std::string models_answer(const RunData& run) {
@@ -261,7 +183,7 @@ std::string answer(const RunData& run, FolderReader& reader) {
 Chapter verdict_chapter(const RunData& run) {
   ChapterData chapter("verdict");
   chapter["description"] = run.summary.description;
-  if (!run.models.empty()) {
+  if (!run.models.empty() && run.moduli_fit.empty()) {
     chapter.tables["forces"] = force_table(run);
     chapter.tables["constants"] = constants_table(run);
   }
@@ -269,31 +191,36 @@ Chapter verdict_chapter(const RunData& run) {
   return written(std::move(chapter));
 }
 
-namespace {
-
-std::string moving_text(const std::vector<MovingPress>& presses) {
-  return compares_integrators(presses) ? integrators_text(presses)
-                                               : control_text(presses);
-}
-
-}  // namespace
-
 std::string verdict_text(const std::filesystem::path& run_folder) {
   FolderReader reader;
   const RunData run = read_run(run_folder, reader);
   const CalibrationData calibration = read_calibration(run, reader);
-  const bool fits_alone = !calibration.empty() && run.models.empty();
-  std::string text = !run.variants.empty()          ? variants_text(run)
-                     : !run.summary.presses.empty() ? moving_text(read_moving_presses(run, reader))
-                     : !run.summary.grasps.empty()  ? grasp_text(read_grasps(run, reader))
-                     : !run.summary.materials.empty() ? materials_text(read_materials(run, reader))
-                     : fits_alone                     ? calibration_text(calibration)
-                                                      : text_table(run);
-  for (const CriterionEntry& criterion : run.summary.criteria) {
-    text += fmt::format("{} {}: {} (limit {})\n", criterion.passed ? "met    " : "NOT MET",
-                        criterion.name, plain_number(criterion.value, "{:.3g}"),
-                        plain_number(criterion.limit, "{:.3g}"));
+  std::string text;
+  if (!run.variants.empty()) {
+    text = tables_text(variants_chapter(run), {"presses"});
+  } else if (!run.summary.presses.empty()) {
+    const std::vector<MovingPress> presses = read_moving_presses(run, reader);
+    text = compares_integrators(presses)
+               ? tables_text(integrators_chapter(presses), {"costs"})
+               : tables_text(control_chapter(presses), {"tracking"}) +
+                     tables_text(speed_chapter(presses), {"errors", "changes"});
+  } else if (!run.summary.grasps.empty()) {
+    text = tables_text(grasp_chapter(read_grasps(run, reader)), {"grasps"});
+  } else if (!run.summary.materials.empty()) {
+    text = tables_text(materials_chapter(read_materials(run, reader)), {"materials"});
+  } else if (!calibration.empty() && run.models.empty()) {
+    for (const Chapter& chapter : fit_chapters(calibration))
+      text += tables_text(chapter, {"parameters", "next"});
+    text += tables_text(transfer_chapter(calibration), {"transfer"});
+  } else if (!run.moduli_fit.empty()) {
+    text = tables_text(elasticity_chapter(run), {"achieved"});
+  } else {
+    text = tables_text(verdict_chapter(run), {"forces", "constants"});
   }
+  for (const CriterionEntry& criterion : run.summary.criteria)
+    text += fmt::format("{} {}: {} (limit {})\n", criterion.passed ? "met    " : "NOT MET",
+                        criterion.name, terminal(number(criterion.value, 3)),
+                        terminal(number(criterion.limit, 3)));
   reader.throw_if_damaged();
   return text;
 }

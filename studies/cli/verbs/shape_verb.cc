@@ -42,40 +42,30 @@ constexpr Look looks[] = {{ProfileSurface::contact, "#0072b2", "contact: may tou
                           {ProfileSurface::bond, "#d55e00", "bond: held by the hand"},
                           {ProfileSurface::free, "#666666", "free"}};
 
-/// A line through (x, z) of each; NaN ends one.
-struct Outline {
-  std::vector<double> x, z;
-
-  void add(double across, double up) {
-    x.push_back(across / mm);
-    z.push_back(up / mm);
-  }
-  void end() {
-    x.push_back(std::nan(""));
-    z.push_back(std::nan(""));
-  }
-};
+void add(report::Series& outline, double across, double up) {
+  outline.add(across / mm, up / mm);
+}
+void end(report::Series& outline) {
+  outline.add(meshes::unknown, meshes::unknown);
+}
 
 /// Of the whole section, left half mirrored.
-Outline outline(const Meridian& meridian, ProfileSurface surface) {
-  Outline outline;
+void trace(const Meridian& meridian, ProfileSurface surface, report::Series& outline) {
   for (const double side : {1.0, -1.0})
     for (const MeridianPiece& piece : meridian.pieces()) {
       if (piece.surface() != surface) continue;
       constexpr int points = 48;
       for (int i = 0; i <= points; ++i) {
         const meshes::Vector2 place = piece.at(double(i) / points);
-        outline.add(side * place.x(), place.y());
+        add(outline, side * place.x(), place.y());
       }
-      outline.end();
+      end(outline);
     }
-  return outline;
 }
 
 /// Where facets meet the plane y = 0.
-Outline outline(const Solid& solid, ProfileSurface surface) {
-  Outline outline;
-  if (surface == ProfileSurface::free) return outline;  // what is not held may touch
+void trace(const Solid& solid, ProfileSurface surface, report::Series& outline) {
+  if (surface == ProfileSurface::free) return;  // what is not held may touch
   for (std::size_t t = 0; t < solid.mesh().triangles.size(); ++t) {
     if (solid.is_bond(t) != (surface == ProfileSurface::bond)) continue;
     int crossings = 0;
@@ -83,29 +73,24 @@ Outline outline(const Solid& solid, ProfileSurface surface) {
       const Vector3 &a = solid.mesh().corner(t, c), &b = solid.mesh().corner(t, (c + 1) % 3);
       if ((a.y() < 0.0) == (b.y() < 0.0)) continue;
       const Vector3 place = a + a.y() / (a.y() - b.y()) * (b - a);
-      outline.add(place.x(), place.z());
+      add(outline, place.x(), place.z());
       ++crossings;
     }
-    if (crossings > 0) outline.end();
+    if (crossings > 0) end(outline);
   }
-  return outline;
 }
 
 report::Figure section(const auto& shape, const std::string& name) {
-  report::Panel panel;
-  panel.x_label = "x [mm]", panel.y_label = "z [mm]";
-  panel.equal_scales = true;
-  panel.key = "outside right top";
+  report::Panel panel{.x_label = "x [mm]",
+                      .y_label = "z [mm]",
+                      .equal_scales = true,
+                      .key = "outside right top"};
   for (const Look& look : looks) {
-    Outline found = outline(shape, look.surface);
-    if (!found.x.empty())
-      panel.series.push_back(
-          {look.meaning, "", std::move(found.x), std::move(found.z), {}, {look.colour, "", 2.5}});
+    report::Series outline{look.meaning, "", {look.colour, "", 2.5}};
+    trace(shape, look.surface, outline);
+    if (!outline.x.empty()) panel.series.push_back(std::move(outline));
   }
-  report::Figure figure;
-  figure.name = name;
-  figure.panels.push_back(std::move(panel));
-  return figure;
+  return {name, 760, 430, 1, {panel}};
 }
 
 /// What a lattice of it takes.

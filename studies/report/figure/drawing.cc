@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <initializer_list>
-#include <iterator>
 #include <kainjow/mustache.hpp>
 #include <stdexcept>
 
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
+#include "meshes/base/text_file.h"
 #include "meshes/press/press_response.h"
 #include "studies/files/process.h"
 #include "studies/report/figure/axis_tics.h"
@@ -130,30 +128,20 @@ Range positive_extent(const Panel& panel, bool vertical) {
   const auto& range = vertical ? panel.y_range : panel.x_range;
   if (range && range->from > 0.0 && range->to > 0.0)
     return {std::fmin(range->from, range->to), std::fmax(range->from, range->to)};
-  Range extent{meshes::unknown, meshes::unknown};
-  for (const Series& series : panel.series) {
-    for (double value : vertical ? series.y : series.x) {
-      if (!(value > 0.0 && std::isfinite(value))) continue;
-      extent = {std::fmin(extent.from, value), std::fmax(extent.to, value)};
-    }
-  }
+  Range extent;
+  for (const Series& series : panel.series)
+    for (const double value : vertical ? series.y : series.x)
+      if (value > 0.0 && std::isfinite(value)) extent.include(value);
   return std::isnan(extent.from) ? Range{1.0, 1.0} : extent;
 }
 
 /// gnuplot's own labels would need its enhanced text, which texts from files must not reach.
-std::string placed_tics(const char* axis, const std::vector<double>& values) {
+std::string placed_tics(const char* axis,
+                        const std::vector<std::pair<std::string, double>>& labels) {
   std::string tics;
-  for (const double value : values)
-    tics += fmt::format("{}{} {:.8g}", tics.empty() ? "" : ", ", gnuplot_string(tic_label(value)),
-                        value);
+  for (const auto& [label, value] : labels)
+    tics += fmt::format("{}{} {:.8g}", tics.empty() ? "" : ", ", gnuplot_string(label), value);
   return fmt::format("set {}tics ({})\n", axis, tics);
-}
-
-std::string named_tics(const std::vector<std::string>& names) {
-  std::string tics;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    tics += fmt::format("{}{} {}", i ? ", " : "", gnuplot_string(names[i]), i + 1);
-  return fmt::format("set xtics ({})\n", tics);
 }
 
 /// Range, scale and tics of one axis.
@@ -162,15 +150,20 @@ std::string axis(const Panel& panel, bool vertical) {
   const int base = vertical ? panel.log_y : panel.log_x;
   std::optional<Range> range = vertical ? panel.y_range : panel.x_range;
   std::string text = fmt::format("set {}tics autofreq\n", name);
+  std::vector<std::pair<std::string, double>> labels;
   if (base != 0) text += fmt::format("set logscale {} {}\n", name, base);
   if (base == 10) {
     const Range extent = positive_extent(panel, vertical);
     const double padding = std::pow(extent.to / extent.from, 0.06) * 1.1;
     const Range shown{extent.from / padding, extent.to * padding};
-    text += placed_tics(name, logarithmic_tics(extent, range ? extent : shown));
+    for (const double tic : logarithmic_tics(extent, range ? extent : shown))
+      labels.emplace_back(tic_label(tic), tic);
     if (!range) range = shown;
   }
-  if (!vertical && !panel.x_names.empty()) text += named_tics(panel.x_names);
+  if (!vertical)
+    for (const std::string& own : panel.x_names)
+      labels.emplace_back(own, double(labels.size() + 1));
+  if (!labels.empty()) text += placed_tics(name, labels);
   return text + axis_range(name, range, base != 0);
 }
 
@@ -237,11 +230,6 @@ std::string script(const Figure& figure, const std::string& svg) {
   return text + "unset output\n";
 }
 
-std::string read_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 /// Runs gnuplot on a script file, in that file's folder: whatever characters the path has, gnuplot
 /// sees names of ours alone. Returns its exit code, -1 when it could not be started.
 int run_gnuplot(const fs::path& script_file, const fs::path& log) {
@@ -303,8 +291,8 @@ Drawing draw(const Figure& figure, const std::string& title, const fs::path& fol
   if (code < 0)
     throw meshes::InvalidInput({"gnuplot", "", "the program that draws figures cannot be started",
                                 "install the package gnuplot-nox"});
-  const std::string message = read_file(log);
-  std::string image = read_file(svg);
+  const std::string message = meshes::read_text(log);
+  std::string image = fs::exists(svg) ? meshes::read_text(svg) : std::string();
   if (code != 0 || image.find("</svg>") == std::string::npos) {
     throw std::runtime_error(fmt::format("gnuplot could not draw the figure {} (exit code {}): {}",
                                          figure.name, code, message));

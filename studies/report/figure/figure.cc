@@ -17,12 +17,42 @@ std::string gnuplot_string(const std::string& text) {
   return result + "'";
 }
 
+Style Style::as_line() const {
+  Style style = *this;
+  style.point = 0;
+  return style;
+}
+
+Style Style::as_points(int type) const {
+  Style style = *this;
+  style.line = false;
+  if (type != 0) style.point = type;
+  return style;
+}
+
+Series legend_entry(const std::string& label, const Style& style) {
+  Series entry{label, "", style};
+  entry.legend_only = true;
+  return entry;
+}
+
+Range extent_of(const std::vector<Series>& curves, std::vector<double> Series::*numbers) {
+  Range extent;
+  for (const Series& curve : curves)
+    for (const double number : curve.*numbers) extent.include(number);
+  return extent;
+}
+
+Panel over_indentation(const std::string& y_label, const std::string& key) {
+  return {.x_label = shown_units().length.label("indentation"), .y_label = y_label, .key = key};
+}
+
 Style model_style(const std::string& name) {
-  if (name == "reference") return {"#000000", "", 1.8, 7, true};
-  if (name == "published") return {"#D55E00", "(9,5)", 2.2, 0, true};
-  if (name == "central") return {"#0072B2", "(10,4,2,4)", 2.2, 0, true};
-  if (name == "hookean") return {"#009E73", "", 2.6, 0, true};
-  return {"#CC79A7", "(3,3)", 2.2, 0, true};
+  if (name == "reference") return {"#000000", "", 1.8, 7};
+  if (name == "published") return {"#D55E00", "(9,5)", 2.2};
+  if (name == "central") return {"#0072B2", "(10,4,2,4)", 2.2};
+  if (name == "hookean") return {"#009E73", "", 2.6};
+  return {"#CC79A7", "(3,3)", 2.2};
 }
 
 Style numbered_style(std::size_t i) {

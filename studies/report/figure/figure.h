@@ -1,10 +1,15 @@
 /// Figures as data: panels of curves and surfaces, and how they look.
 #pragma once
 
+#include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "meshes/tables/file_fields.h"
+#include "studies/files/shown_units.h"
 
 namespace fingertip::studies::report::inline figure {
 
@@ -12,12 +17,17 @@ namespace fingertip::studies::report::inline figure {
 /// keeps its colour and dash pattern in all figures.
 struct Style {
   std::string colour = "#000000";
-  std::string dash;  ///< gnuplot's (on, off, …) lengths, solid when empty
+  std::string dash = {};  ///< gnuplot's (on, off, …) lengths, solid when empty
   double width = 2.0;
   int point = 0;     ///< gnuplot's point type, 0 for none
   bool line = true;  ///< join the points
   double point_size = 0.65;
   double opacity = 1.0;  ///< of the points, 0 to 1
+
+  /// The same as a line without points.
+  Style as_line() const;
+  /// The same as points without a line, of another type where one is given.
+  Style as_points(int type = 0) const;
 };
 
 /// The style of a curve that belongs to "reference" or to a model of that name.
@@ -33,21 +43,56 @@ std::string model_label(const std::string& name);
 struct Series {
   std::string label;  ///< in the legend; left out of it when empty
   std::string key;    ///< name in the CSV; `label` when empty
-  std::vector<double> x, y;
-  std::vector<double> error;  ///< half-height of error bars, empty for none
-  Style style;
+  Style style = {};
+  std::vector<double> x = {}, y = {};
+  std::vector<double> error = {};  ///< half-height of error bars, empty for none
   /// Drawn as the line in place of straight ones between x, y, whose points stay; empty: those.
   std::vector<double> line_x = {}, line_y = {};
   /// Drawn at so many times x, lest error bars cover each other; the CSV has x itself.
   double shift = 1.0;
   bool legend_only = false;  ///< an entry of the legend without a curve
   bool filled = false;       ///< a pale area inside the closed curve, behind what follows
+
+  void add(double at, double value) {
+    x.push_back(at);
+    y.push_back(value);
+  }
 };
+
+/// A point per row: of `x` and `y`, members or functions of a row.
+template <class Rows, class X, class Y>
+Series curve(const std::string& label, const std::string& key, const Style& style, const Rows& rows,
+             const X& x, const Y& y) {
+  Series series{label, key, style};
+  for (const auto& row : rows) series.add(std::invoke(x, row), std::invoke(y, row));
+  return series;
+}
+/// A member of a row in a unit that is shown, for curve().
+template <class Unit, class Member>
+auto in(const Unit& unit, Member member) {
+  return [unit, member](const auto& row) { return unit(std::invoke(member, row)); };
+}
+template <class Member>
+auto in_percent(Member member) {
+  return [member](const auto& row) { return 100.0 * std::invoke(member, row); };
+}
+
+/// Entry of the legend without a curve.
+Series legend_entry(const std::string& label, const Style& style);
 
 /// A NaN end follows the data.
 struct Range {
-  double from, to;
+  double from = meshes::unknown, to = meshes::unknown;
+
+  /// Widens it, from nothing where its ends are NaN.
+  void include(double value) {
+    from = std::fmin(from, value);
+    to = std::fmax(to, value);
+  }
 };
+/// Of the numbers of all curves, one of the two lists; NaN without any.
+Range extent_of(const std::vector<Series>& curves, std::vector<double> Series::*numbers);
+
 /// A horizontal band, e.g. a tolerance.
 struct Band {
   double from, to;
@@ -82,12 +127,12 @@ struct Surface {
 
 /// One pair of axes.
 struct Panel {
-  std::string title, x_label, y_label;  ///< labels carry their unit in brackets
-  std::vector<Series> series;
-  std::optional<Range> x_range, y_range;
-  std::optional<Band> band;
-  std::vector<Marker> markers;
-  std::vector<Text> texts;
+  std::string title = {}, x_label = {}, y_label = {};  ///< labels carry their unit in brackets
+  std::vector<Series> series = {};
+  std::optional<Range> x_range = {}, y_range = {};
+  std::optional<Band> band = {};
+  std::vector<Marker> markers = {};
+  std::vector<Text> texts = {};
   std::vector<Arrow> arrows = {};
   bool bare = false;             ///< a picture: without axes
   bool equal_scales = false;     ///< one unit is as long on x as on y
@@ -99,6 +144,9 @@ struct Panel {
   /// row.
   std::optional<Surface> surface = std::nullopt;
 };
+
+/// A panel over indentation.
+Panel over_indentation(const std::string& y_label, const std::string& key = "top left");
 
 struct Figure {
   std::string name;               ///< file name without extension

@@ -139,25 +139,13 @@ Grade grade(double relative_error) {
 }
 
 std::string css_class(Grade grade) {
-  switch (grade) {
-    case Grade::close: return "close";
-    case Grade::fair: return "fair";
-    case Grade::off: return "off";
-    case Grade::wrong: return "wrong";
-    case Grade::none: break;
-  }
-  return "";
+  static constexpr const char* classes[] = {"", "close", "fair", "off", "wrong"};
+  return classes[std::size_t(grade)];
 }
 
 std::string mark(Grade grade) {
-  switch (grade) {
-    case Grade::close: return "●";
-    case Grade::fair: return "◐";
-    case Grade::off: return "○";
-    case Grade::wrong: return "✕";
-    case Grade::none: break;
-  }
-  return "";
+  static constexpr const char* marks[] = {"", "●", "◐", "○", "✕"};
+  return marks[std::size_t(grade)];
 }
 
 }  // namespace fingertip::studies::report::inline figure

@@ -3,135 +3,101 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <kainjow/mustache.hpp>
-#include <stdexcept>
+#include <algorithm>
+#include <cmath>
 
 #include "meshes/base/files.h"
 #include "studies/report/figure/drawing.h"
+#include "studies/report/page/rendering.h"
 #include "studies/report/page/templates.h"
 
 namespace fingertip::studies::report::inline page {
 namespace {
 
 namespace fs = std::filesystem;
-using Data = kainjow::mustache::data;
-using List = kainjow::mustache::list;
-
-Data cell_data(const Cell& cell, bool row_name) {
-  Data result;
-  result.set("cell_tag", row_name ? "th" : "td");
-  result.set("row_name", row_name);
-  result.set("cell_text", cell.text);
-  const std::string style = cell.words ? "words" : css_class(cell.grade);
-  result.set("cell_class", style);
-  result.set("styled", !style.empty() && !row_name);
-  result.set("cell_mark", mark(cell.grade));
-  result.set("has_mark", cell.grade != Grade::none);
-  result.set("cell_note", cell.note);
-  result.set("has_note", !cell.note.empty());
-  return result;
-}
-
-Data row_data(const std::vector<Cell>& row) {
-  Data cells{List()};
-  for (std::size_t i = 0; i < row.size(); ++i) cells << cell_data(row[i], i == 0);
-  Data result;
-  result.set("cells", cells);
-  return result;
+WordList cell_words(const std::vector<Cell>& row, bool is_row) {
+  WordList cells;
+  for (const Cell& cell : row) {
+    const bool row_name = is_row && cells.empty();
+    cells.push_back({{{"cell_tag", row_name ? "th" : "td"},
+                      {"row_name", row_name},
+                      {"cell_text", cell.text},
+                      {"cell_class", row_name     ? ""
+                                     : cell.words ? "words"
+                                                  : css_class(cell.grade)},
+                      {"cell_mark", mark(cell.grade)},
+                      {"cell_note", cell.note}}});
+  }
+  return cells;
 }
 
 /// Turns one block after the other into template data, drawing figures on the way.
-class BlockData {
- public:
-  explicit BlockData(fs::path figures) : figures_(std::move(figures)) {}
+struct BlockWords {
+  fs::path figures;
 
-  Data operator()(const Paragraph& paragraph) const {
-    Data inner;
-    inner.set("lead", paragraph.lead);
-    inner.set("has_lead", !paragraph.lead.empty());
-    inner.set("text", paragraph.text);
-    inner.set("warning", paragraph.warning);
-    return Data("paragraph", inner);
+  Words operator()(const Paragraph& paragraph) const {
+    return of(
+        "paragraph",
+        {{{"lead", paragraph.lead}, {"text", paragraph.text}, {"warning", paragraph.warning}}});
   }
-
-  Data operator()(const Listing& listing) const {
-    Data inner;
-    inner.set("listing_title", listing.title);
-    inner.set("listing_text", listing.text);
-    return Data("listing", inner);
+  Words operator()(const Listing& listing) const {
+    return of("listing", {{{"listing_title", listing.title}, {"listing_text", listing.text}}});
   }
-
-  Data operator()(const Table& table) const {
-    Data header{List()}, rows{List()};
-    for (const Cell& cell : table.header) header << cell_data(cell, false);
-    for (const auto& row : table.rows) rows << row_data(row);
-    Data inner;
-    inner.set("table_caption", table.caption);
-    inner.set("header", header);
-    inner.set("rows", rows);
-    inner.set("graded", table.graded);
-    inner.set("dense", table.header.size() > 8);
-    return Data("table", inner);
+  Words operator()(const Table& table) const {
+    WordList rows;
+    for (const auto& row : table.rows) rows.push_back({{{"cells", cell_words(row, true)}}});
+    return of("table", {{{"table_caption", table.caption},
+                         {"header", cell_words(table.header, false)},
+                         {"rows", std::move(rows)},
+                         {"graded", table.graded},
+                         {"dense", table.header.size() > 8}}});
   }
-
-  Data operator()(const FigureBlock& block) const {
-    Data inner;
-    const Drawing drawing = draw(block.figure, block.title, figures_);
-    inner.set("svg", drawing.svg);
-    inner.set("points", drawing.points);
-    inner.set("has_points", !drawing.points.empty());
-    inner.set("figure_name", block.figure.name);
-    inner.set("figure_title", block.title);
-    inner.set("figure_caption", block.caption);
-    return Data("figure", inner);
+  Words operator()(const FigureBlock& block) const {
+    const Drawing drawing = draw(block.figure, block.title, figures);
+    return of("figure", {{{"svg", drawing.svg},
+                          {"points", drawing.points},
+                          {"figure_name", block.figure.name},
+                          {"figure_title", block.title},
+                          {"figure_caption", block.caption}}});
   }
 
  private:
-  fs::path figures_;
+  static Words of(const std::string& kind, Words own) {
+    Words block{{{"paragraph", false}, {"listing", false}, {"table", false}, {"figure", false}}};
+    block[kind] = WordList{std::move(own)};
+    return block;
+  }
 };
 
-std::string render(const Page& page, const fs::path& figures) {
-  Data chapters{List()}, missing{List()}, damaged{List()}, rejected{List()};
+std::string html_of(const Page& page, const fs::path& figures) {
+  WordList chapters, missing, damaged, rejected;
   for (const Chapter& chapter : page.chapters) {
     if (chapter.blocks.empty()) continue;
-    Data blocks{List()};
-    for (const Block& block : chapter.blocks) blocks << std::visit(BlockData(figures), block);
-    Data entry;
-    entry.set("chapter_id", chapter.id);
-    entry.set("chapter_title", chapter.title);
-    entry.set("blocks", blocks);
-    chapters << entry;
+    WordList blocks;
+    for (const Block& block : chapter.blocks)
+      blocks.push_back(std::visit(BlockWords{figures}, block));
+    chapters.push_back({{{"chapter_id", chapter.id},
+                         {"chapter_title", chapter.title},
+                         {"blocks", std::move(blocks)}}});
   }
-  for (const NotRun& item : page.not_run) {
-    Data entry;
-    entry.set("what", item.what);
-    entry.set("files", item.missing);
-    missing << entry;
-  }
-  for (const std::string& reason : page.rejected) rejected << Data("reason", reason);
-  for (const Damaged& item : page.damaged) {
-    Data entry;
-    entry.set("place", item.place);
-    entry.set("what", item.what);
-    damaged << entry;
-  }
-  Data root;
-  root.set("damaged", damaged);
-  root.set("has_damaged", !page.damaged.empty());
-  root.set("rejected", rejected);
-  root.set("has_rejected", !page.rejected.empty());
-  root.set("page_title", page.title);
-  root.set("subtitle", page.subtitle);
-  root.set("page_status", page.status);
-  root.set("has_status", !page.status.empty());
-  root.set("answer", page.answer);
-  root.set("has_answer", !page.answer.empty());
-  root.set("chapters", chapters);
-  root.set("not_run", missing);
-  root.set("has_not_run", !page.not_run.empty());
-  kainjow::mustache::mustache view{std::string(templates().at("report.html.mustache"))};
-  if (!view.is_valid()) throw std::runtime_error("report template: " + view.error_message());
-  return view.render(root);
+  for (const NotRun& item : page.not_run)
+    missing.push_back({{{"what", item.what}, {"files", item.missing}}});
+  for (const std::string& reason : page.rejected) rejected.push_back({{{"reason", reason}}});
+  for (const Damaged& item : page.damaged)
+    damaged.push_back({{{"place", item.place}, {"what", item.what}}});
+  return rendered(templates().at("report.html.mustache"),
+                  {{{"damaged", damaged},
+                    {"has_damaged", !damaged.empty()},
+                    {"rejected", rejected},
+                    {"has_rejected", !rejected.empty()},
+                    {"page_title", page.title},
+                    {"subtitle", page.subtitle},
+                    {"page_status", page.status},
+                    {"answer", page.answer},
+                    {"chapters", std::move(chapters)},
+                    {"not_run", missing},
+                    {"has_not_run", !missing.empty()}}},
+                  "report.html");
 }
 
 /// A folder that disappears with the scope.
@@ -156,11 +122,51 @@ class Workplace {
 
 }  // namespace
 
+Cell prose(const std::string& text) {
+  return {text, "", Grade::none, true};
+}
+
+Cell error_cell(double error, const std::string& note) {
+  return {percent(error), note, figure::grade(error)};
+}
+
+Cell magnitude_cell(double error, const std::string& note) {
+  return {percent_magnitude(error), note, figure::grade(error)};
+}
+
+Cell amount_cell(double value, const ShownUnit& unit) {
+  return {number(unit(value)), std::isnan(value) ? "" : si_note(value, std::string(unit.si))};
+}
+
+std::vector<Cell> heads(std::initializer_list<std::string> titles) {
+  std::vector<Cell> row;
+  for (const std::string& title : titles) {
+    const std::size_t end = std::min(title.find('\n'), title.size());
+    row.emplace_back(title.substr(0, end), end < title.size() ? title.substr(end + 1) : "");
+  }
+  return row;
+}
+
+void Table::drop_unknown(std::size_t first) {
+  for (std::size_t column = header.size(); column-- > first;) {
+    const auto is_unknown = [&](const std::vector<Cell>& row) {
+      return column >= row.size() || row[column].text.empty() || row[column].text == "–";
+    };
+    if (std::ranges::all_of(rows, is_unknown)) drop_column(column);
+  }
+}
+
+void Table::drop_column(std::size_t column) {
+  header.erase(header.begin() + std::ptrdiff_t(column));
+  for (std::vector<Cell>& row : rows)
+    if (column < row.size()) row.erase(row.begin() + std::ptrdiff_t(column));
+}
+
 void publish(const Page& page, const fs::path& folder, const std::string& file_name) {
   const Workplace workplace(folder);
   const fs::path figures = workplace.path() / "figures";
   fs::create_directories(figures);
-  const std::string html = render(page, figures);
+  const std::string html = html_of(page, figures);
   if (fs::exists(folder / "figures")) {
     fs::rename(folder / "figures", workplace.path() / "replaced");
   }

@@ -25,22 +25,37 @@ struct Listing {
 };
 
 struct Cell {
+  Cell(std::string cell_text = "", std::string second_line = "", Grade how = Grade::none,
+       bool prose = false)
+      : text(std::move(cell_text)), note(std::move(second_line)), grade(how), words(prose) {}
+  Cell(const char* cell_text) : text(cell_text) {}
+
   std::string text;
   std::string note;  ///< second, smaller line: the SI value or the deviation
   Grade grade = Grade::none;
   bool words = false;  ///< prose: left-aligned and wrapped
 };
 
-inline Cell plain(const std::string& text, const std::string& note = "") {
-  return {text, note, Grade::none};
-}
+/// Left-aligned and wrapped.
+Cell prose(const std::string& text);
+/// A relative error, graded: with its sign, or as a magnitude.
+Cell error_cell(double error, const std::string& note = "");
+Cell magnitude_cell(double error, const std::string& note = "");
+/// A value in the unit shown, which the column's head names, with SI below; "–" where unknown.
+Cell amount_cell(double value, const ShownUnit& unit);
+/// A head for each title; what follows a line's end in it is the note.
+std::vector<Cell> heads(std::initializer_list<std::string> titles);
 
 /// The first column names the row.
 struct Table {
-  std::string caption;
   std::vector<Cell> header;
-  std::vector<std::vector<Cell>> rows;
   bool graded = false;  ///< explain the marks below the table
+  std::vector<std::vector<Cell>> rows = {};
+  std::string id = {}, caption = {};  ///< those of the template that places it
+
+  /// Leaves out the columns from the `first` on in which nothing is known, "–" or nothing at all.
+  void drop_unknown(std::size_t first);
+  void drop_column(std::size_t column);
 };
 
 /// A figure with the sentence that says what to see.

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
+#include <boost/algorithm/string/trim_all.hpp>
 #include <cmath>
-#include <kainjow/mustache.hpp>
 #include <stdexcept>
 
 #include "studies/report/page/templates.h"
@@ -12,60 +13,15 @@
 namespace fingertip::studies::report::inline page {
 namespace {
 
-using Filling = kainjow::mustache::data;
-
 /// Stand in the rendered text for a blank line and around the number of a value.
 constexpr char block_end = '\x1e', value_mark = '\x1a';
 
-Filling filling_of(const Words& words);
-
-Filling filling_of(const Words::Value& value) {
-  if (const bool* condition = std::get_if<bool>(&value)) return *condition;
-  if (const std::string* text = std::get_if<std::string>(&value))
-    return text->empty() ? Filling(false) : Filling(*text);
-  Filling list{kainjow::mustache::list()};
-  for (const Words& entry : std::get<WordList>(value)) list << filling_of(entry);
-  return list;
-}
-
-Filling filling_of(const Words& words) {
-  Filling object;
-  for (const auto& [name, value] : words.values) object.set(name, filling_of(value));
-  return object;
-}
-
-/// Where kainjow shows nothing for an unknown name, this one says so.
-class StrictNames : public kainjow::mustache::context<std::string> {
- public:
-  StrictNames(const Filling& root, const std::string& where) : context(&root), where_(where) {}
-
-  const Filling* get(const std::string& name) const override {
-    if (const Filling* found = context::get(name)) return found;
-    throw std::logic_error(fmt::format("chapters/{}.mustache: no value for {}", where_, name));
-  }
-
- private:
-  const std::string& where_;
-};
-
 /// A template without line breaks: they are spaces, blank lines end a block.
 std::string on_one_line(std::string_view text) {
-  std::string flat;
-  while (!text.empty()) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
-    flat += line.empty() ? std::string(1, block_end) : std::string(line) + ' ';
-  }
+  std::string flat(text);
+  boost::replace_all(flat, "\n\n", std::string(1, block_end));
+  boost::replace_all(flat, "\n", " ");
   return flat;
-}
-
-/// Without spaces at its ends and with single ones inside.
-std::string squeezed(std::string_view text) {
-  std::string result;
-  for (const char c : text)
-    if (c != ' ' || (!result.empty() && result.back() != ' ')) result += c;
-  if (result.ends_with(' ')) result.pop_back();
-  return result;
 }
 
 /// The part of `text` before `end`, which it loses together with `end`; all of it without one.
@@ -74,11 +30,6 @@ std::string_view cut_off(std::string_view& text, std::string_view end) {
   const std::string_view part = text.substr(0, at);
   text.remove_prefix(std::min(at + end.size(), text.size()));
   return part;
-}
-
-std::string_view without_space(std::string_view text) {
-  if (text.starts_with(' ')) text.remove_prefix(1);
-  return text;
 }
 
 /// Puts a template's blocks together with what they name.
@@ -93,9 +44,9 @@ class Writer {
 
   Chapter chapter(std::string_view text) {
     chapter_.id = data_.id;
-    const std::string all = rendered(text);
+    const std::string all = numbered(text);
     for (std::string_view rest = all; !rest.empty();) {
-      const std::string block = squeezed(cut_off(rest, {&block_end, 1}));
+      const std::string block = boost::trim_all_copy(std::string(cut_off(rest, {&block_end, 1})));
       if (block.starts_with("# "))
         chapter_.title = filled(block.substr(2));
       else if (block.starts_with('['))
@@ -116,16 +67,12 @@ class Writer {
   }
 
   /// The template with numbers in the place of values, which `values_` keeps.
-  std::string rendered(std::string_view text) {
-    kainjow::mustache::mustache view(on_one_line(text));
-    if (!view.is_valid()) refuse(view.error_message());
-    view.set_custom_escape([this](const std::string& value) {
-      values_.push_back(value);
-      return fmt::format("{}{}{}", value_mark, values_.size() - 1, value_mark);
-    });
-    const Filling root = filling_of(static_cast<const Words&>(data_));
-    StrictNames names(root, data_.name);
-    return view.render(names);
+  std::string numbered(std::string_view text) {
+    return rendered(on_one_line(text), data_, "chapters/" + data_.name,
+                    [this](const std::string& value) {
+                      values_.push_back(value);
+                      return fmt::format("{}{}{}", value_mark, values_.size() - 1, value_mark);
+                    });
   }
 
   /// With the values in their places.
@@ -144,17 +91,18 @@ class Writer {
     block.remove_prefix(1);
     const std::string_view kind = cut_off(block, " ");
     const std::string id = filled(cut_off(block, "]"));
-    block = without_space(block);
+    if (block.starts_with(' ')) block.remove_prefix(1);
     if (kind == "figure") {
       const auto found = std::ranges::find(data_.figures, id, &Figure::name);
       if (found == data_.figures.end()) return;
       const std::string title = filled(cut_off(block, " |")),
-                        caption = filled(without_space(block));
+                        caption = filled(block.substr(block.starts_with(' ')));
       chapter_.blocks.push_back(FigureBlock{std::move(*found), title, caption});
       data_.figures.erase(found);
     } else if (kind == "table") {
       auto found = data_.tables.extract(id);
       if (found.empty()) return;
+      found.mapped().id = id;
       found.mapped().caption = filled(block);
       chapter_.blocks.push_back(std::move(found.mapped()));
     } else if (kind == "listing") {
@@ -173,7 +121,7 @@ class Writer {
       block.remove_prefix(2);
       paragraph.lead = filled(cut_off(block, "**"));
     }
-    paragraph.text = filled(without_space(block));
+    paragraph.text = filled(block.substr(block.starts_with(' ')));
     if (!paragraph.lead.empty() || !paragraph.text.empty())
       chapter_.blocks.push_back(std::move(paragraph));
   }

@@ -22,22 +22,12 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "studies/report/page/document.h"
+#include "studies/report/page/rendering.h"
 
 namespace fingertip::studies::report::inline page {
-
-/// What the names in a template stand for: a text, a condition, or a list whose section is repeated
-/// for each of its entries. As the condition of a section an empty text is false.
-struct Words {
-  using Value = std::variant<std::string, bool, std::vector<Words>>;
-  std::map<std::string, Value> values;
-
-  Value& operator[](const std::string& name) { return values[name]; }
-};
-using WordList = std::vector<Words>;
 
 /// A chapter's data. Its template knows the names of two shown units besides: force_unit and
 /// stress_unit.

@@ -37,48 +37,31 @@ using calibration::ParameterEntry;
 using Truth = meshes::Entries<double>;
 
 FitParameter read_parameter(const ParameterEntry& entry, const Truth& truth) {
-  FitParameter parameter;
-  parameter.name = parameter.symbol = entry.name;
+  FitParameter parameter{entry};
+  parameter.symbol = entry.name;
   for (const ParameterName& known : known_parameters)
-    if (known.name == parameter.name) parameter.symbol = known.symbol;
-  parameter.si_unit = parameter.unit = without_one(entry.unit);
+    if (known.name == entry.name) parameter.symbol = known.symbol;
+  parameter.si_unit = parameter.shown_unit = without_one(entry.unit);
   if (const ShownUnit* known = shown_units().of(parameter.si_unit)) {
-    parameter.unit = known->name;
+    parameter.shown_unit = known->name;
     parameter.factor = known->factor;
   } else if (parameter.si_unit == "s") {
-    parameter.unit = "ms";
+    parameter.shown_unit = "ms";
     parameter.factor = 1e3;
   }
-  parameter.estimate = entry.estimate;
-  parameter.standard_error = entry.standard_error;
-  parameter.lower = entry.lower;
-  parameter.upper = entry.upper;
-  parameter.start = entry.start;
-  parameter.bias = entry.bias;
-  if (entry.prior) {
-    parameter.prior_mean = entry.prior->mean;
-    parameter.prior_deviation = entry.prior->deviation;
-  }
   if (const double* known = truth.find(entry.name)) parameter.truth = *known;
-  parameter.at_bound = entry.at_bound;
   parameter.bounded = entry.bound_of == "poissons_ratio" ? "ν" : parameter.symbol;
   return parameter;
 }
 
 /// A curve may name its own quantities where those of the fit differ.
 FitCurve read_curve(const CurveEntry& entry, const FitFile& file) {
-  FitCurve curve;
-  curve.name = entry.name;
-  curve.condition = as_shown(entry.condition);
-  curve.x_quantity = quantity(entry.x_quantity.empty() ? file.x_quantity : entry.x_quantity);
-  curve.y_quantity = quantity(entry.y_quantity.empty() ? file.y_quantity : entry.y_quantity);
-  if (entry.points > 0) curve.points = double(entry.points);
-  curve.worst = entry.worst_relative_residual;
-  curve.structure = entry.structure.statement;
-  curve.structure_probability = entry.structure.probability;
-  curve.course = entry.course;
-  if (entry.left_out) curve.left_out_error = entry.left_out->worst_relative_error;
-  return curve;
+  return {entry.name,
+          as_shown(entry.condition),
+          quantity(entry.x_quantity.empty() ? file.x_quantity : entry.x_quantity),
+          quantity(entry.y_quantity.empty() ? file.y_quantity : entry.y_quantity),
+          entry,
+          {}};
 }
 
 /// Appends the rows of fit_data.csv to the curves they belong to; unknown names become curves.
@@ -88,16 +71,9 @@ void add_points(Fit& fit, const std::vector<FitDataRow>& rows) {
     if (curve == fit.curves.end()) {
       CurveEntry entry;
       entry.name = row.curve;
-      fit.curves.push_back(read_curve(entry, fit.file));
-      curve = fit.curves.end() - 1;
+      curve = fit.curves.insert(curve, read_curve(entry, fit.file));
     }
-    curve->x.push_back(row.x);
-    curve->measured.push_back(row.measured);
-    curve->sigma.push_back(row.sigma);
-    curve->fitted.push_back(row.fitted);
-    curve->left_out.push_back(row.left_out);
-    curve->total_sigma.push_back(row.total_sigma);
-    curve->whitened.push_back(row.whitened_residual);
+    curve->rows.push_back(row);
   }
 }
 
@@ -201,21 +177,30 @@ Quantity quantity(const std::string& text) {
   return result;
 }
 
+bool FitCurve::knows(double FitDataRow::*value) const {
+  return std::ranges::any_of(rows, [&](const auto& row) { return std::isfinite(row.*value); });
+}
+
 bool FitCurve::has_sigma() const {
-  return std::ranges::any_of(sigma, [](double value) { return value > 0.0; });
+  return std::ranges::any_of(rows, [](const auto& row) { return row.sigma > 0.0; });
 }
 
 bool FitCurve::has_model_error() const {
   // Written to all digits: equal where there is none.
-  for (std::size_t i = 0; i < sigma.size(); ++i)
-    if (total_sigma[i] > sigma[i]) return true;
-  return false;
+  return std::ranges::any_of(rows, [](const auto& row) { return row.total_sigma > row.sigma; });
 }
 
 double FitCurve::relative_rms() const {
-  const auto values = Eigen::VectorXd::Map(measured.data(), Eigen::Index(measured.size()));
-  return calibration::relative_rms(
-      values - Eigen::VectorXd::Map(fitted.data(), Eigen::Index(fitted.size())), values);
+  Eigen::VectorXd measured(rows.size()), fitted(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    measured[Eigen::Index(i)] = rows[i].measured;
+    fitted[Eigen::Index(i)] = rows[i].fitted;
+  }
+  return calibration::relative_rms(measured - fitted, measured);
+}
+
+double FitCurve::left_out_error() const {
+  return entry.left_out ? entry.left_out->worst_relative_error : meshes::unknown;
 }
 
 std::vector<std::vector<double>> Fit::square(const std::vector<std::vector<double>>& rows) const {

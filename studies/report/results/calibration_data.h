@@ -18,46 +18,38 @@ struct Quantity {
   std::string unit;           ///< shown
   double factor = 1.0;        ///< from SI to shown
 
+  double operator()(double value) const { return factor * value; }
   std::string label() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 
 Quantity quantity(const std::string& text);
 
-/// A free parameter of a fit.
-struct FitParameter {
-  std::string name;
-  std::string symbol;         ///< "E", "κ", …; the name itself when it is not a known one
-  std::string unit, si_unit;  ///< shown (s as ms), and in files
-  double factor = 1.0;        ///< from SI to shown
-  double estimate = meshes::unknown, standard_error = meshes::unknown;
-  double lower = meshes::unknown, upper = meshes::unknown;  ///< 95 % interval
-  double start = meshes::unknown, bias = meshes::unknown;
-  double prior_mean = meshes::unknown, prior_deviation = meshes::unknown;
-  double truth = meshes::unknown;  ///< known in a synthetic study
-  bool at_bound = false;
-  std::string bounded;  ///< symbol of what is at its bound: its own, or "ν"
+/// A free parameter of a fit, and how the reader sees it.
+struct FitParameter : calibration::ParameterEntry {
+  std::string symbol = {};  ///< "E", "κ", …; the name itself when it is not a known one
+  std::string shown_unit = {}, si_unit = {};  ///< s as ms; empty when it is 1
+  double factor = 1.0;                        ///< from SI to shown
+  double truth = meshes::unknown;             ///< known in a synthetic study
+  std::string bounded = {};                   ///< symbol of what is at its bound: its own, or "ν"
 };
 
-/// A curve of a fit; the lists are of equal length, empty without fit_data.csv.
+/// A curve of a fit.
 struct FitCurve {
   std::string name, condition;
   Quantity x_quantity, y_quantity;
-  double points = meshes::unknown;
-  double worst = meshes::unknown;  ///< largest relative residual
-  std::string structure;           ///< what the runs test says
-  double structure_probability = meshes::unknown;
-  double left_out_error = meshes::unknown;  ///< worst relative one of the fit without this curve
-  std::vector<double> x, measured, sigma, fitted, left_out;
-  std::vector<double> total_sigma, whitened;  ///< those of chi-square; NaN in files without them
+  calibration::CurveEntry entry;
+  std::vector<calibration::FitDataRow> rows;  ///< empty without fit_data.csv
 
-  std::optional<calibration::LoadingHistory> course;  ///< what the file tells besides
-
+  /// Whether something is known of some row.
+  bool knows(double calibration::FitDataRow::*value) const;
   /// Some point has its sigma.
   bool has_sigma() const;
   /// Some point's total_sigma holds more than its sigma.
   bool has_model_error() const;
   /// relative_rms of the residuals; NaN without points.
   double relative_rms() const;
+  /// Worst relative one of the fit without this curve; NaN where there is none.
+  double left_out_error() const;
 };
 
 /// One fit: calibration.json, fit_data.csv, surrogate.csv and surrogate.json of a folder.

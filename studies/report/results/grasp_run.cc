@@ -5,38 +5,11 @@
 
 namespace fingertip::studies::report::inline results {
 
-namespace {
-
 using lattice::GraspRow;
-
-std::vector<double> mean_of(const std::vector<GraspRow>& rows,
-                            std::array<double, 2> GraspRow::*quantity) {
-  std::vector<double> mean;
-  for (const GraspRow& row : rows) mean.push_back(0.5 * ((row.*quantity)[0] + (row.*quantity)[1]));
-  return mean;
-}
-
-}  // namespace
 
 bool GraspRun::released() const {
   return !rows.empty() && rows.back().phase == lattice::GripPhase::release &&
          std::isfinite(summary.slip_force);
-}
-
-std::vector<double> GraspRun::normal() const {
-  return mean_of(rows, &GraspRow::normal);
-}
-
-std::vector<double> GraspRun::tangential() const {
-  return mean_of(rows, &GraspRow::tangential);
-}
-
-std::vector<double> GraspRun::point_friction() const {
-  return mean_of(rows, &GraspRow::point_friction);
-}
-
-std::vector<double> GraspRun::inward_friction() const {
-  return mean_of(rows, &GraspRow::inward_friction);
 }
 
 GraspRun read_grasp(const std::filesystem::path& folder, const std::string& series,

@@ -26,11 +26,6 @@ struct GraspRun {
   bool held() const { return fate() == "held"; }
   /// Whether the grip force fell after the hold until the block slipped.
   bool released() const;
-  /// Means of the two fingers, per row [N].
-  std::vector<double> normal() const;
-  std::vector<double> tangential() const;
-  std::vector<double> point_friction() const;
-  std::vector<double> inward_friction() const;
 };
 
 GraspRun read_grasp(const std::filesystem::path& folder, const std::string& series,

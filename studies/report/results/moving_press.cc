@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 using lattice::TraceRow;
 
 double MovingPress::approach_speed() const {
-  return largest_magnitude(column(trace, &TraceRow::commanded_speed));
+  return largest_of(trace, &TraceRow::commanded_speed);
 }
 
 bool MovingPress::controls_force() const {

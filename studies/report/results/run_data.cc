@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What follows from E and G need not be in the file.
-Target target_of(double E, double G) {
-  Target target;
+TargetEntry target_of(double E, double G) {
+  TargetEntry target;
   target.youngs_modulus = E;
   target.shear_modulus = G;
   if (!(E > 0.0 && G > 0.0)) return target;
@@ -29,7 +29,7 @@ ModelData read_model(const fs::path& folder, const std::string& name, const Mode
   static_cast<PressFiles&>(model) = read_press_files(folder / name, reader);
   model.name = name;
   model.status = entry.status;
-  model.moduli = {entry.E_100, entry.E_110, entry.E_111, entry.G, entry.nu_100, entry.K};
+  model.moduli = entry;
   model.force_error = entry.force_error;
   model.l2_error = entry.relative_l2_force_error;
   model.real_time_factor = entry.real_time_factor;
@@ -67,6 +67,17 @@ double largest_magnitude(const std::vector<double>& values) {
   double result = meshes::unknown;
   for (const double value : values) result = std::fmax(result, std::abs(value));
   return result;
+}
+
+std::string trouble(const std::string& status) {
+  return status == "finished" || status == "ok" ? "" : status;
+}
+
+Series force_curve(const std::string& label, const std::string& key, const Style& style,
+                   std::span<const meshes::PressSample> samples) {
+  using meshes::PressSample;
+  return curve(label, key, style, samples, in(shown_units().length, &PressSample::indentation),
+               in(shown_units().force, &PressSample::normal_force));
 }
 
 double force_at(const meshes::PressResponse& response, double depth) {
@@ -134,18 +145,17 @@ void take_summary(RunData& run, FolderReader& reader) {
 /// The lattice that a fit to moduli found.
 ModelData fitted_model(const RunData& run, FolderReader& reader) {
   const auto summary = reader.take<ModuliSummary>(reader.json(run.folder / "summary.json"));
-  const ModuliEntry& moduli = summary.moduli;
   ModelData model;
   model.name = run.moduli_fit.model;
   model.status = "ok";
   model.calibration = run.moduli_fit;
-  model.moduli = {moduli.E_100, moduli.E_110, moduli.E_111, moduli.G, moduli.nu_100, moduli.K};
+  model.moduli = summary.moduli;
   return model;
 }
 
 /// The rubber, wherever a file tells it first.
-Target find_target(const RunData& run) {
-  Target target;
+TargetEntry find_target(const RunData& run) {
+  TargetEntry target;
   if (const auto& told = run.summary.target)
     target = target_of(told->youngs_modulus, told->shear_modulus);
   for (const ModelData& model : run.models) {

@@ -1,8 +1,12 @@
 /// What a run folder holds, read back from disk; SI.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +22,7 @@
 #include "studies/files/mode_table.h"
 #include "studies/files/press_summary.h"
 #include "studies/files/run_tables.h"
+#include "studies/report/figure/figure.h"
 
 namespace fingertip::studies::report::inline results {
 
@@ -26,19 +31,53 @@ double largest_magnitude(const std::vector<double>& values);
 
 using meshes::column;
 
-/// The rubber's constants the models are measured against [Pa]; NaN where no file tells them.
-struct Target {
-  double youngs_modulus = meshes::unknown;
-  double shear_modulus = meshes::unknown;
-  double poissons_ratio = meshes::unknown;
-  double bulk_modulus = meshes::unknown;
-};
+/// The same of a member of rows.
+template <class Rows, class Member>
+double largest_of(const Rows& rows, Member member) {
+  double largest = meshes::unknown;
+  for (const auto& row : rows) largest = std::fmax(largest, std::abs(std::invoke(member, row)));
+  return largest;
+}
 
-/// Elastic constants of a lattice as `validate` puts them into summary.json [Pa].
-struct Moduli {
-  double E_100 = meshes::unknown, E_110 = meshes::unknown, E_111 = meshes::unknown;
-  double G = meshes::unknown, nu_100 = meshes::unknown, K = meshes::unknown;
-};
+/// The first row of which `measure` is largest; null where it is known of none.
+template <class Row, class Measure>
+const Row* largest_in(const std::vector<Row>& rows, const Measure& measure) {
+  const Row* found = nullptr;
+  for (const Row& row : rows) {
+    const double value = std::invoke(measure, row);
+    if (std::isfinite(value) && (!found || value > std::invoke(measure, *found))) found = &row;
+  }
+  return found;
+}
+
+/// What kept a run from its end, of its status; "" when nothing did.
+std::string trouble(const std::string& status);
+
+/// The different texts of a member in the order of their first appearance.
+template <typename Row>
+std::vector<std::string> distinct(const std::vector<Row>& rows, std::string Row::*member) {
+  std::vector<std::string> texts;
+  for (const Row& row : rows)
+    if (std::ranges::find(texts, row.*member) == texts.end()) texts.push_back(row.*member);
+  return texts;
+}
+
+/// Neighbouring rows that are `alike`, group by group.
+template <typename Row, typename Alike>
+std::vector<std::span<const Row>> grouped(const std::vector<Row>& rows, const Alike& alike) {
+  std::vector<std::span<const Row>> groups;
+  for (auto first = rows.begin(); first != rows.end();) {
+    const auto last =
+        std::find_if_not(first, rows.end(), [&](const Row& row) { return alike(*first, row); });
+    groups.emplace_back(first, last);
+    first = last;
+  }
+  return groups;
+}
+
+/// Normal force over indentation, in the units shown.
+Series force_curve(const std::string& label, const std::string& key, const Style& style,
+                   std::span<const meshes::PressSample> samples);
 
 /// What a press in time leaves in its folder; empty where it does not.
 struct PressFiles {
@@ -53,9 +92,9 @@ PressFiles read_press_files(const std::filesystem::path& folder, FolderReader& r
 
 /// One lattice model of a validate run.
 struct ModelData : PressFiles {
-  std::string name;    ///< "published", "central", "hookean", ...
-  std::string status;  ///< of its press, e.g. "ok"
-  Moduli moduli;
+  std::string name;                   ///< "published", "central", "hookean", ...
+  std::string status;                 ///< of its press, e.g. "ok"
+  ModuliEntry moduli;                 ///< as `validate` puts them into summary.json [Pa]
   std::vector<double> force_error;    ///< relative, at RunData::depths; NaN where not reached
   double l2_error = meshes::unknown;  ///< relative L2 error of the force curve
   double real_time_factor = meshes::unknown;  ///< simulated over wall time
@@ -72,7 +111,7 @@ struct RunData {
   std::string verb;  ///< what made it, as its manifest tells
   std::string status;
   std::vector<double> depths;  ///< where force errors are given [m]
-  Target target;
+  TargetEntry target;   ///< the rubber the models are measured against; NaN where no file tells
   CaseSummary summary;  ///< of `validate`
   StudyEntry study;     ///< its study, or empty
   Manifest manifest;

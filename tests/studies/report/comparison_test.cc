@@ -151,6 +151,12 @@ TEST(Comparison, TellsNothingOutsideTheSamplesOfARun) {
   EXPECT_TRUE(omits(result.text, "interpolated"));
 }
 
+/// What the screen shows in several lines.
+std::string in_a_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
 TEST(Comparison, InterpolatesInsideTheSamplesWhereNoneAreCommonAndSaysSo) {
   const TemporaryFolder folder;
   write_press(folder / "a", {{0.5e-3, 0.5}, {1e-3, 1.0}, {1.5e-3, 1.5}, {2e-3, 2.0}, {3e-3, 3.0}});
@@ -163,7 +169,7 @@ TEST(Comparison, InterpolatesInsideTheSamplesWhereNoneAreCommonAndSaysSo) {
     EXPECT_NEAR(std::stod(rows[i][3]), 0.1, 1e-6);
     EXPECT_EQ(rows[i][4], "1");
   }
-  EXPECT_TRUE(says(result.text, "~: interpolated between samples of b"));
+  EXPECT_TRUE(says(in_a_line(result.text), "~: interpolated between samples of b"));
   EXPECT_TRUE(says(report_testing::visible_text(read_text(folder / "out/comparison.html")),
                    "interpolated between samples of b"));
 }
@@ -214,9 +220,9 @@ TEST(Comparison, ForcesAgainstIndentationEndWithThePress) {
   const auto lateral = result.text.find("lateral force at full depth [mN]");
   ASSERT_NE(lateral, std::string::npos) << result.text;
   // The one displacement that both have: 1 and 0.7 N.
-  EXPECT_NE(result.text.find("1000.0000", lateral), std::string::npos) << result.text;
-  EXPECT_NE(result.text.find("700.0000", lateral), std::string::npos) << result.text;
-  EXPECT_EQ(result.text.find("0.1000  ", lateral), std::string::npos) << result.text;
+  EXPECT_NE(result.text.find("1000", lateral), std::string::npos) << result.text;
+  EXPECT_NE(result.text.find("700.0", lateral), std::string::npos) << result.text;
+  EXPECT_EQ(result.text.find("0.1000 ", lateral), std::string::npos) << result.text;
   EXPECT_TRUE(says(read_text(folder / "out/comparison.html"), "comparison_lateral"));
 }
 

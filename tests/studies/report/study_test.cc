@@ -97,7 +97,7 @@ TEST(StudyReport, TextIsPlainAndEscaped) {
       omits(report_testing::without_own_scripts(read_text(run / "report.html")), "<script"));
   const std::string text = studies::report::verdict_text(run);
   for (const char c : text) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << int(c);
-  EXPECT_TRUE(says(text, {"4.00 %", "-40.00 %", "NOT MET small"}));
+  EXPECT_TRUE(says(text, {"4.0 %", "-40.0 %", "NOT MET small"}));
 }
 
 TEST(StudyReport, PressThatStoppedLeavesGaps) {

@@ -19,10 +19,14 @@ constexpr double accurate = 2.0, real_time = 1.0;
 
 constexpr const char* usual_integrator = "symplectic-euler";
 
+double value_of(const JsonEntry& entry, const std::string& key) {
+  return number_if_any(entry, key);
+}
+
 /// What one core of its own would give, where that was measured.
 double pace_of(const JsonEntry& press) {
-  const double processor = number_if_any(press, "real_time_factor_processor");
-  return std::isfinite(processor) ? processor : number_if_any(press, "real_time_factor");
+  const double processor = value_of(press, "real_time_factor_processor");
+  return std::isfinite(processor) ? processor : value_of(press, "real_time_factor");
 }
 
 /// Colour tells the model, the marker the integrator: circles for plain steps, triangles for scaled
@@ -36,40 +40,26 @@ struct Family {
   bool whole = false;
 };
 
-Style family_style(const std::string& model, bool usual_steps) {
-  Style style = model_style(model);
-  style.point = usual_steps ? 7 : 9;
-  style.point_size = usual_steps ? 0.9 : 1.2;
-  style.dash = usual_steps ? "" : "(8,4)";
-  style.width = 2.2;
-  return style;
-}
-
 /// The presses of a family, each point with its R/n.
 void add_family(Panel& panel, const JsonEntry& bench, const Family& family) {
-  Series series;
-  series.label = family.label;
-  series.style = family_style(family.model, family.integrator == usual_integrator);
-  if (family.whole) series.style.point = 11;
-  if (family.hollow) {
-    series.style.point -= 1;
-    series.style.dash = "(2,4)";
-    series.style.width = 1.4;
-  }
+  const bool usual = family.integrator == usual_integrator;
+  Style style = model_style(family.model);
+  style.point = (family.whole ? 11 : usual ? 7 : 9) - (family.hollow ? 1 : 0);
+  style.point_size = usual ? 0.9 : 1.2;
+  style.dash = family.hollow ? "(2,4)" : usual ? "" : "(8,4)";
+  style.width = family.hollow ? 1.4 : 2.2;
+  Series series{family.label, "", style};
   for (const JsonEntry& press : array_if_any(bench, "press")) {
     if (text_if_any(press, "model") != family.model ||
         text_if_any(press, "integrator") != family.integrator ||
-        number_if_any(press, "threads") != family.threads ||
-        press.at("whole").flag() != family.whole)
+        value_of(press, "threads") != family.threads || press.at("whole").flag() != family.whole)
       continue;
-    const double error = 100.0 * number_if_any(press, family.error_key), pace = pace_of(press);
+    const double error = 100.0 * value_of(press, family.error_key), pace = pace_of(press);
     if (!std::isfinite(error) || !std::isfinite(pace)) continue;
-    series.x.push_back(pace);
-    series.y.push_back(error);
+    series.add(pace, error);
     if (family.label_height > 0.0)
-      panel.texts.push_back(
-          {pace, family.label_height * error,
-           fmt::format("R/{:.0f}", 1.0 / number_if_any(press, "spacing_over_R"))});
+      panel.texts.push_back({pace, family.label_height * error,
+                             fmt::format("R/{:.0f}", 1.0 / value_of(press, "spacing_over_R"))});
   }
   if (!series.x.empty()) panel.series.push_back(std::move(series));
 }
@@ -95,19 +85,15 @@ void add_lattices(Panel& panel, const JsonEntry& bench) {
 void add_continua(Panel& panel, const JsonEntry& bench) {
   std::map<int, Series> by_degree;
   for (const JsonEntry& entry : array_if_any(bench, "continua")) {
-    const double error = 100.0 * number_if_any(entry, "worst_force_error");
-    const double pace = number_if_any(entry, "real_time_factor");
+    const double error = 100.0 * value_of(entry, "worst_force_error");
+    const double pace = value_of(entry, "real_time_factor");
     if (!std::isfinite(error) || !std::isfinite(pace)) continue;
-    const int degree = int(number_if_any(entry, "degree"));
+    const int degree = int(value_of(entry, "degree"));
     Series& series = by_degree[degree];
     series.label = fmt::format("quasi-static FEM, Q{}, unknowns", degree);
-    series.style = model_style("reference");
-    series.style.point = degree == 1 ? 4 : 5;
-    series.style.point_size = 0.9;
-    if (degree == 1) series.style.dash = "(6,3)";
-    series.x.push_back(pace);
-    series.y.push_back(error);
-    panel.texts.push_back({pace, 1.22 * error, count(number_if_any(entry, "unknowns"))});
+    series.style = {"#000000", degree == 1 ? "(6,3)" : "", 1.8, degree == 1 ? 4 : 5, true, 0.9};
+    series.add(pace, error);
+    panel.texts.push_back({pace, 1.22 * error, count(value_of(entry, "unknowns"))});
   }
   for (auto& [degree, series] : by_degree) panel.series.push_back(std::move(series));
 }
@@ -115,43 +101,39 @@ void add_continua(Panel& panel, const JsonEntry& bench) {
 /// The corner that every press should be in, behind everything else.
 void add_target(Panel& panel) {
   const Range x = {real_time, panel.x_range->to}, y = {panel.y_range->from, accurate};
-  Series corner;
-  corner.key = "target";
+  Series corner{"",
+                "target",
+                {"#E69F00"},
+                {x.from, x.to, x.to, x.from, x.from},
+                {y.from, y.from, y.to, y.to, y.from}};
   corner.filled = true;
-  corner.style.colour = "#E69F00";
-  corner.x = {x.from, x.to, x.to, x.from, x.from};
-  corner.y = {y.from, y.from, y.to, y.to, y.from};
   panel.series.insert(panel.series.begin(), corner);
   panel.texts.push_back({std::sqrt(x.from * x.to), 1.25 * y.from, "2 %, real time"});
 }
 
 /// The range of logarithmic data with room at both ends, and `include` in it.
-Range roomy(const std::vector<Series>& all, bool vertical, double include) {
-  double low = include, high = include;
-  for (const Series& series : all)
-    for (const double value : vertical ? series.y : series.x) {
-      low = std::fmin(low, value);
-      high = std::fmax(high, value);
-    }
-  return {low / 1.6, high * 1.6};
+Range roomy(Range range, double include) {
+  range.include(include);
+  return {range.from / 1.6, range.to * 1.6};
 }
 
 /// Error of the force against the real-time factor: every way of simulating the press.
 Figure pace_figure(const JsonEntry& bench) {
-  Panel panel;
-  panel.x_label = "real-time factor in the slowest 10 ms [1]";
-  panel.y_label = fmt::format("largest force error, {} to {} [%]", shown_units().length.text(1e-3),
-                              shown_units().length.text(3e-3));
-  panel.log_x = panel.log_y = 10;
-  panel.key = "outside right top";
+  Panel panel{
+      .x_label = "real-time factor in the slowest 10 ms [1]",
+      .y_label = fmt::format("largest force error, {} to {} [%]", shown_units().length.text(1e-3),
+                             shown_units().length.text(3e-3)),
+      .markers = {{real_time, "#444444"}},
+      .log_x = 10,
+      .log_y = 10,
+      .key = "outside right top"};
   add_lattices(panel, bench);
   add_continua(panel, bench);
   if (panel.series.empty()) return {"pace", 0, 0, 1, {}};
-  panel.x_range = roomy(panel.series, false, real_time);
+  panel.x_range = roomy(extent_of(panel.series, &Series::x), real_time);
   panel.x_range->to = std::fmax(panel.x_range->to, 10.0 * real_time);
-  panel.y_range = roomy(panel.series, true, accurate);
+  panel.y_range = roomy(extent_of(panel.series, &Series::y), accurate);
   panel.y_range->from = std::fmin(panel.y_range->from, 0.25 * accurate);
-  panel.markers = {{real_time, "#444444"}};
   add_target(panel);
   return {"pace", 940, 540, 1, {panel}};
 }
@@ -168,73 +150,78 @@ bool is_scaled(const JsonEntry& press) {
 double edge_list_cost(const JsonEntry& bench) {
   double cost = meshes::unknown, masses = 0.0;
   for (const JsonEntry& kernel : array_if_any(bench, "kernels")) {
-    const double size = number_if_any(kernel, "masses");
+    const double size = value_of(kernel, "masses");
     if (text_if_any(kernel, "name") != "edge_list" || !(size > masses && size < 1.5e5)) continue;
     masses = size;
-    cost = number_if_any(kernel, "ns_per_spring_step");
+    cost = value_of(kernel, "ns_per_spring_step");
   }
   return cost;
 }
 
 Table press_table(const JsonEntry& bench) {
-  Table table;
-  table.header = {plain("Lattice", "strain, steps"),
-                  plain("a", "masses"),
-                  plain("Of the tip"),
-                  plain("Threads"),
-                  plain("Real-time factor", "processor time"),
-                  plain("… in edge lists"),
-                  plain("Force error"),
-                  plain("… at rest"),
-                  plain("… small strain"),
-                  plain("Steps", "longest"),
-                  plain("Per mass and step")};
-  const auto error_cell = [](double error) {
-    return Cell{std::isfinite(error) ? percent_magnitude(error) : "–", "", grade(error)};
-  };
+  Table table{heads({"Lattice\nstrain, steps", "a\nmasses", "Of the tip", "Threads",
+                     "Real-time factor\nprocessor time", "… in edge lists", "Force error",
+                     "… at rest", "… small strain", "Steps\nlongest", "Per mass and step"}),
+              true};
   for (const JsonEntry& press : array_if_any(bench, "press")) {
-    const double processor = number_if_any(press, "real_time_factor_processor");
-    const double parts = number_if_any(press, "parts");
-    const double step = number_if_any(press, "time_step"),
-                 cost = number_if_any(press, "ns_per_mass_step");
-    const double small = number_if_any(press, "worst_force_error_small_strain");
+    const double processor = value_of(press, "real_time_factor_processor"),
+                 parts = value_of(press, "parts"), step = value_of(press, "time_step");
     table.rows.push_back(
-        {plain(text_if_any(press, "model"), text_if_any(press, "kinematics") + " strain" +
-                                                (is_scaled(press) ? ", scaled masses" : "")),
-         plain(spacing_text(press), count(number_if_any(press, "particles"))),
-         plain(parts == 1.0 ? "all" : "1/" + count(parts)),
-         plain(count(number_if_any(press, "threads"))),
-         plain(number(number_if_any(press, "real_time_factor"), 3),
-               std::isfinite(processor) ? number(processor, 3) : ""),
-         plain(number(
-             edge_list_cost(bench) *
-                 (std::isfinite(processor) ? processor : number_if_any(press, "real_time_factor")),
-             3)),
-         error_cell(number_if_any(press, "worst_force_error")),
-         plain(error_cell(number_if_any(press, "static_error")).text),
-         plain(error_cell(small).text),
-         plain(count(number_if_any(press, "steps")),
-               std::isfinite(step) ? with_prefix(step, "s") : ""),
-         plain(std::isfinite(cost) ? with_prefix(1e-9 * cost, "s") : "–")});
+        {{text_if_any(press, "model"), text_if_any(press, "kinematics") + " strain" +
+                                           (is_scaled(press) ? ", scaled masses" : "")},
+         {spacing_text(press), count(value_of(press, "particles"))},
+         parts == 1.0 ? "all" : "1/" + count(parts),
+         count(value_of(press, "threads")),
+         {number(value_of(press, "real_time_factor"), 3),
+          if_known(processor, number(processor, 3))},
+         number(edge_list_cost(bench) * pace_of(press), 3),
+         magnitude_cell(value_of(press, "worst_force_error")),
+         percent_magnitude(value_of(press, "static_error")),
+         percent_magnitude(value_of(press, "worst_force_error_small_strain")),
+         {count(value_of(press, "steps")), if_known(step, with_prefix(step, "s"))},
+         with_prefix(1e-9 * value_of(press, "ns_per_mass_step"), "s")});
   }
-  table.graded = true;
   return table;
 }
 
 Table continuum_table(const JsonEntry& bench) {
-  Table table;
-  table.header = {plain("Elements"), plain("Unknowns"), plain("Solves per second"),
-                  plain("Real-time factor"), plain("Force error")};
-  for (const JsonEntry& entry : array_if_any(bench, "continua")) {
-    const double error = number_if_any(entry, "worst_force_error");
-    table.rows.push_back({plain(fmt::format("Q{}", number_if_any(entry, "degree"))),
-                          plain(count(number_if_any(entry, "unknowns"))),
-                          plain(number(number_if_any(entry, "solves_per_second"), 3)),
-                          plain(number(number_if_any(entry, "real_time_factor"), 3)),
-                          {percent_magnitude(error), "", grade(error)}});
-  }
+  Table table{
+      heads({"Elements", "Unknowns", "Solves per second", "Real-time factor", "Force error"})};
+  for (const JsonEntry& entry : array_if_any(bench, "continua"))
+    table.rows.push_back({fmt::format("Q{}", value_of(entry, "degree")),
+                          count(value_of(entry, "unknowns")),
+                          number(value_of(entry, "solves_per_second"), 3),
+                          number(value_of(entry, "real_time_factor"), 3),
+                          magnitude_cell(value_of(entry, "worst_force_error"))});
   return table;
 }
+
+/// The press on which most depends, in a sentence.
+std::string answer_text(const JsonEntry& bench) {
+  const JsonList presses = array_if_any(bench, "press");
+  const JsonEntry* best = nullptr;
+  for (const JsonEntry& press : presses)
+    if (value_of(press, "worst_force_error") <= 0.02 &&
+        (best == nullptr ||
+         value_of(press, "real_time_factor") > value_of(*best, "real_time_factor")))
+      best = &press;
+  const bool missing = bench.contains("missing_reference");
+  WordList found;
+  if (best && !missing) {
+    const double threads = value_of(*best, "threads");
+    found = {{{{"model", text_if_any(*best, "model")},
+               {"scaled", is_scaled(*best)},
+               {"spacing", spacing_text(*best)},
+               {"threads", threads == 1.0 ? "" : count(threads)},
+               {"error", percent_magnitude(value_of(*best, "worst_force_error"))},
+               {"factor", number(value_of(*best, "real_time_factor"), 3)}}}};
+  }
+  return sentences("answer_bench", {{{"no_reference", missing},
+                                     {"none", found.empty() && !missing},
+                                     {"best", std::move(found)}}});
+}
+
+}  // namespace
 
 Chapter pace_chapter(const JsonEntry& bench) {
   ChapterData chapter("pace");
@@ -245,38 +232,6 @@ Chapter pace_chapter(const JsonEntry& bench) {
   chapter.tables["continua"] = continuum_table(bench);
   return written(std::move(chapter));
 }
-
-/// The press on which most depends, in a sentence.
-std::string answer_text(const JsonEntry& bench) {
-  const JsonList presses = array_if_any(bench, "press");
-  const JsonEntry* best = nullptr;
-  for (const JsonEntry& press : presses) {
-    const double error = number_if_any(press, "worst_force_error");
-    if (!(error <= 0.02)) continue;
-    if (best == nullptr ||
-        number_if_any(press, "real_time_factor") > number_if_any(*best, "real_time_factor"))
-      best = &press;
-  }
-  const bool missing = bench.contains("missing_reference");
-  WordList found;
-  if (best && !missing) {
-    const double threads = number_if_any(*best, "threads");
-    Words& words = found.emplace_back();
-    words["model"] = text_if_any(*best, "model");
-    words["scaled"] = is_scaled(*best);
-    words["spacing"] = spacing_text(*best);
-    words["threads"] = threads == 1.0 ? "" : count(threads);
-    words["error"] = percent_magnitude(number_if_any(*best, "worst_force_error"));
-    words["factor"] = number(number_if_any(*best, "real_time_factor"), 3);
-  }
-  Words words;
-  words["no_reference"] = missing;
-  words["none"] = found.empty() && !missing;
-  words["best"] = std::move(found);
-  return sentences("answer_bench", words);
-}
-
-}  // namespace
 
 Page bench_page(const std::filesystem::path& run_folder, FolderReader& reader) {
   const JsonEntry bench = reader.json(run_folder / "bench.json");

@@ -51,31 +51,14 @@ std::vector<Sample> read_samples(const RunData& run) {
   return samples;
 }
 
-std::vector<double> depths_of(const std::vector<Sample>& samples) {
-  std::vector<double> depths;
-  for (const Sample& sample : samples) depths.push_back(sample.depth);
-  return depths;
-}
-
-/// The sample where `measure` is largest; null when it is finite nowhere.
-template <class Measure>
-const Sample* worst(const std::vector<Sample>& samples, Measure measure) {
-  const Sample* found = nullptr;
-  for (const Sample& sample : samples) {
-    if (!std::isfinite(measure(sample))) continue;
-    if (!found || measure(sample) > measure(*found)) found = &sample;
-  }
-  return found;
-}
-
 /// How far the force may be off, and how that is estimated; none where no depth has an estimate.
 WordList certainty(const RunData& run, const std::vector<Sample>& samples) {
-  const Sample* relative = worst(samples, [](const Sample& s) { return s.relative_error(); });
+  const Sample* relative = largest_in(samples, &Sample::relative_error);
   if (!relative) return {};
   const auto estimated = std::count_if(samples.begin(), samples.end(), [](const Sample& s) {
     return std::isfinite(s.relative_error());
   });
-  const Sample* absolute = worst(samples, [](const Sample& s) { return s.error; });
+  const Sample* absolute = largest_in(samples, &Sample::error);
   const double share = relative->relative_error(), tolerance = run.continuum.tolerance;
   const bool all = std::size_t(estimated) == samples.size(), same = absolute == relative;
   Words words;
@@ -96,14 +79,14 @@ WordList certainty(const RunData& run, const std::vector<Sample>& samples) {
 
 /// Change of force against the finest mesh in percent, with the estimate as bars of the latter.
 Panel change_panel(const std::vector<const Sample*>& shown) {
-  Panel panel;
-  panel.x_label = "unknowns of the mesh";
-  panel.y_label = "F against the finest mesh [%]";
-  panel.log_x = 10;
+  Panel panel{
+      .x_label = "unknowns of the mesh", .y_label = "F against the finest mesh [%]", .log_x = 10};
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const Sample& sample = *shown[i];
-    Series series{depth_label(sample.depth), "", sample.unknowns, {}, {}, {}};
-    series.style = {depth_shade(i, shown.size()), "", 1.6, 7, true, 0.5};
+    Series series{depth_label(sample.depth),
+                  "",
+                  {depth_shade(i, shown.size()), "", 1.6, 7, true, 0.5},
+                  sample.unknowns};
     series.shift = std::pow(1.025, double(i) - 0.5 * double(shown.size() - 1));
     for (double f : sample.forces) series.y.push_back(100.0 * (f / sample.forces.back() - 1.0));
     series.error.assign(sample.forces.size(), 0.0);
@@ -115,28 +98,26 @@ Panel change_panel(const std::vector<const Sample*>& shown) {
 
 /// Magnitude of the same, and the estimate in the place of the finest mesh.
 Panel decay_panel(const std::vector<const Sample*>& shown) {
-  Panel panel;
-  panel.x_label = "unknowns of the mesh";
-  panel.y_label = "magnitude [%]";
-  panel.log_x = panel.log_y = 10;
-  panel.key = "";
+  Panel panel{.x_label = "unknowns of the mesh",
+              .y_label = "magnitude [%]",
+              .log_x = 10,
+              .log_y = 10,
+              .key = ""};
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const Sample& sample = *shown[i];
     const std::string colour = depth_shade(i, shown.size());
-    Series change{"", depth_label(sample.depth), {}, {}, {}, {colour, "", 1.6, 7, true, 0.5}};
+    Series change{"", depth_label(sample.depth), {colour, "", 1.6, 7, true, 0.5}};
     for (std::size_t k = 0; k + 1 < sample.forces.size(); ++k) {
       const double magnitude = std::abs(sample.forces[k] / sample.forces.back() - 1.0);
-      change.x.push_back(sample.unknowns[k]);
-      change.y.push_back(magnitude > 0.0 ? 100.0 * magnitude : meshes::unknown);
+      change.add(sample.unknowns[k], magnitude > 0.0 ? 100.0 * magnitude : meshes::unknown);
     }
     panel.series.push_back(change);
-    if (!std::isfinite(sample.error)) continue;
-    panel.series.push_back({"",
-                            depth_label(sample.depth) + " estimate",
-                            {sample.unknowns.back()},
-                            {100.0 * sample.relative_error()},
-                            {},
-                            {colour, "", 1.6, 10, false, 0.9}});
+    if (std::isfinite(sample.error))
+      panel.series.push_back({"",
+                              depth_label(sample.depth) + " estimate",
+                              {colour, "", 1.6, 10, false, 0.9},
+                              {sample.unknowns.back()},
+                              {100.0 * sample.relative_error()}});
   }
   return panel;
 }
@@ -144,38 +125,28 @@ Panel decay_panel(const std::vector<const Sample*>& shown) {
 /// A line of the order 1.5 that the estimate assumes, h ~ unknowns^(-1/3), through the panel's top
 /// left.
 Series slope_guide(const Panel& panel) {
-  double least = 1e300, most = 0.0, top = 0.0;
-  for (const Series& series : panel.series) {
-    for (double x : series.x) least = std::fmin(least, x), most = std::fmax(most, x);
-    for (double y : series.y) top = std::fmax(top, y);
-  }
-  Series guide{"", "order 1.5", {}, {}, {}, {"#777777", "(2,3)", 1.5, 0, true}};
-  for (double x : {least, most}) {
-    guide.x.push_back(x);
-    guide.y.push_back(1.6 * top / std::sqrt(x / least));
-  }
+  const Range x = extent_of(panel.series, &Series::x);
+  const double top = extent_of(panel.series, &Series::y).to;
+  Series guide{"", "order 1.5", {"#777777", "(2,3)", 1.5}};
+  for (const double at : {x.from, x.to}) guide.add(at, 1.6 * top / std::sqrt(at / x.from));
   return guide;
 }
 
 Figure convergence_figure(const RunData& run, const std::vector<Sample>& samples) {
-  std::vector<Sample> refined;
-  for (const Sample& sample : samples)
-    if (sample.forces.size() > 1) refined.push_back(sample);
-  const std::vector<double> depths = shown_depths(run, depths_of(refined));
   std::vector<const Sample*> shown;
-  for (const Sample& sample : refined)
-    if (std::find(depths.begin(), depths.end(), sample.depth) != depths.end())
+  std::vector<double> depths;
+  for (const Sample& sample : samples)
+    if (sample.forces.size() > 1) depths.push_back(sample.depth);
+  depths = shown_depths(run, depths);
+  for (const Sample& sample : samples)
+    if (sample.forces.size() > 1 && std::ranges::find(depths, sample.depth) != depths.end())
       shown.push_back(&sample);
   Figure figure{"mesh_convergence", 880, 640, 1, {change_panel(shown), decay_panel(shown)}, 175};
   figure.panels[0].key = figure.beside_panels();
   figure.panels[1].series.push_back(slope_guide(figure.panels[1]));
-  for (const auto& [label, style] :
-       {std::pair{"estimated error", Style{"#555555", "", 1.6, 10, false, 0.9}},
-        std::pair{"order 1.5", Style{"#777777", "(2,3)", 1.5, 0, true}}}) {
-    Series entry{label, "", {}, {}, {}, style};
-    entry.legend_only = true;
-    figure.panels[0].series.push_back(entry);
-  }
+  figure.panels[0].series.push_back(
+      legend_entry("estimated error", {"#555555", "", 1.6, 10, false, 0.9}));
+  figure.panels[0].series.push_back(legend_entry("order 1.5", {"#777777", "(2,3)", 1.5}));
   return figure;
 }
 
@@ -184,95 +155,55 @@ std::string whole(const Sample& sample, int fem_reference::PressState::*number) 
   return sample.details ? count(double((*sample.details).*number)) : "–";
 }
 
-/// A quantity of one sample in the table.
-struct SampleColumn {
-  Cell header;
-  std::function<Cell(const Sample&)> cell;
-};
-
-Cell contact_nodes(const Sample& sample, double radius, bool slides) {
+std::string contact_nodes_note(const Sample& sample, double radius, bool slides) {
   const double spacing = sample.details ? sample.details->node_spacing : meshes::unknown;
   std::string note;
   if (spacing > 0.0 && std::isfinite(radius))
     note = fmt::format("{} along a", number(radius / spacing, 2));
   if (slides)
     note += fmt::format(", {} slide", whole(sample, &fem_reference::PressState::sliding_nodes));
-  return plain(whole(sample, &fem_reference::PressState::active_nodes), note);
+  return note;
 }
 
-Cell iterations(const Sample& sample, bool finite) {
-  std::string note = "contact " + whole(sample, &fem_reference::PressState::active_set_iterations);
-  if (finite)
-    note = "Newton " + whole(sample, &fem_reference::PressState::newton_iterations) + ", " + note;
-  return plain(whole(sample, &fem_reference::PressState::steps), note);
-}
-
-std::vector<SampleColumn> force_columns(const RunData& run) {
-  std::vector<SampleColumn> columns;
-  columns.push_back({plain("Force", unit_name(shown_units().force)), [](const Sample& s) {
-                       return plain(number_with_error(shown_units().force(s.force),
-                                                      shown_units().force(s.error), 5),
-                                    si_note(s.force, "N"));
-                     }});
-  columns.push_back({plain("Error", "estimated"), [](const Sample& s) {
-                       if (!std::isfinite(s.error)) return plain("–");
-                       return plain(percent_magnitude(s.relative_error()),
-                                    with_unit(s.error, shown_units().force, 2));
-                     }});
-  columns.push_back({plain("Convergence", "order"), [](const Sample& s) {
-                       const auto details = s.details.value_or(fem_reference::PressState());
-                       const double order = details.order;
-                       return plain(details.convergence.empty() ? "–" : details.convergence,
-                                    std::isfinite(order) ? number(order, 2) : "");
-                     }});
-  if (const auto hertz = hertz_contact(run))
-    columns.push_back({plain("Against Hertz", "F/F_Hertz − 1"), [=](const Sample& s) {
-                         return plain(percent(s.force / hertz->force(s.depth) - 1.0));
-                       }});
-  return columns;
-}
-
-std::vector<SampleColumn> contact_columns(const RunData& run) {
-  const bool finite = run.continuum.strain == "finite";
-  const bool slides = run.continuum.contact == "coulomb";
-  std::map<double, meshes::PressSample> response;
-  for (const meshes::PressSample& sample : run.reference.pressing())
-    response[sample.indentation] = sample;
-  std::vector<SampleColumn> columns;
-  columns.push_back(
-      {plain("Contact radius", unit_name(shown_units().length)), [=](const Sample& s) {
-         const double a = response.at(s.depth).contact_radius;
-         return plain(number(shown_units().length(a)), si_note(a, "m"));
-       }});
-  columns.push_back({plain("Peak pressure", unit_name(shown_units().stress)), [=](const Sample& s) {
-                       const double p = response.at(s.depth).max_pressure;
-                       return plain(number(shown_units().stress(p)), si_note(p, "Pa"));
-                     }});
-  columns.push_back({plain("Nodes in contact", "along its radius a"), [=](const Sample& s) {
-                       return contact_nodes(s, response.at(s.depth).contact_radius, slides);
-                     }});
-  columns.push_back(
-      {plain("Steps", "iterations"), [=](const Sample& s) { return iterations(s, finite); }});
-  if (finite)
-    columns.push_back({plain("Smallest J", "1 undeformed"), [](const Sample& s) {
-                         return plain(
-                             number(s.details ? s.details->min_jacobian : meshes::unknown, 3));
-                       }});
-  return columns;
+std::string iterations(const Sample& sample, bool finite) {
+  const std::string contact =
+      "contact " + whole(sample, &fem_reference::PressState::active_set_iterations);
+  return finite ? "Newton " + whole(sample, &fem_reference::PressState::newton_iterations) + ", " +
+                      contact
+                : contact;
 }
 
 Table sample_table(const RunData& run, const std::vector<Sample>& samples) {
-  Table table;
-  std::vector<SampleColumn> columns = force_columns(run);
-  for (SampleColumn& column : contact_columns(run)) columns.push_back(std::move(column));
-  table.header = {plain("Indentation", unit_name(shown_units().length))};
-  for (const SampleColumn& column : columns) table.header.push_back(column.header);
-  for (const Sample& sample : samples) {
-    std::vector<Cell> row{plain(fmt::format("{:.4g}", shown_units().length(sample.depth)),
-                                si_note(sample.depth, "m"))};
-    for (const SampleColumn& column : columns) row.push_back(column.cell(sample));
-    table.rows.push_back(std::move(row));
+  using Entry = fem_reference::PressState;
+  const ShownUnits& units = shown_units();
+  const bool finite = run.continuum.strain == "finite", slides = run.continuum.contact == "coulomb";
+  const auto hertz = hertz_contact(run);
+  Table table{heads(
+      {"Indentation\n" + unit_name(units.length), "Force\n" + unit_name(units.force),
+       "Error\nestimated", "Convergence\norder", "Against Hertz\nF/F_Hertz − 1",
+       "Contact radius\n" + unit_name(units.length), "Peak pressure\n" + unit_name(units.stress),
+       "Nodes in contact\nalong its radius a", "Steps\niterations", "Smallest J\n1 undeformed"})};
+  const auto response = run.reference.pressing();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Sample& s = samples[i];
+    const Entry details = s.details.value_or(Entry());
+    table.rows.push_back(
+        {{fmt::format("{:.4g}", units.length(s.depth)), si_note(s.depth, "m")},
+         {number_with_error(units.force(s.force), units.force(s.error), 5), si_note(s.force, "N")},
+         {percent_magnitude(s.relative_error()),
+          if_known(s.error, with_unit(s.error, units.force, 2))},
+         {details.convergence.empty() ? "–" : details.convergence,
+          if_known(details.order, number(details.order, 2))},
+         hertz ? percent(s.force / hertz->force(s.depth) - 1.0) : "",
+         amount_cell(response[i].contact_radius, units.length),
+         amount_cell(response[i].max_pressure, units.stress),
+         {whole(s, &Entry::active_nodes),
+          contact_nodes_note(s, response[i].contact_radius, slides)},
+         {whole(s, &Entry::steps), iterations(s, finite)},
+         number(details.min_jacobian, 3)});
   }
+  if (!finite) table.drop_column(9);
+  if (!hertz) table.drop_column(4);
   return table;
 }
 
@@ -289,18 +220,14 @@ double largest_change(const std::vector<Sample>& samples, int number) {
 }
 
 Table sequence_table(const RunData& run, const std::vector<Sample>& samples) {
-  Table table;
-  table.header = {plain("Mesh"),   plain("Cells"),     plain("Unknowns"),
-                  plain("Depths"), plain("Wall time"), plain("Force off the finest", "largest")};
+  Table table{
+      heads({"Mesh", "Cells", "Unknowns", "Depths", "Wall time", "Force off the finest\nlargest"})};
   int number = 0;
-  for (const fem_reference::MeshEntry& mesh : run.continuum.meshes) {
-    ++number;
-    table.rows.push_back({plain(std::to_string(number)), plain(count(double(mesh.cells))),
-                          plain(count(double(mesh.dofs))),
-                          plain(count(double(mesh.samples.value_or(0)))),
-                          plain(with_prefix(mesh.wall_time, "s")),
-                          plain(percent_magnitude(largest_change(samples, number)))});
-  }
+  for (const fem_reference::MeshEntry& mesh : run.continuum.meshes)
+    table.rows.push_back({std::to_string(++number), count(double(mesh.cells)),
+                          count(double(mesh.dofs)), count(double(mesh.samples.value_or(0))),
+                          with_prefix(mesh.wall_time, "s"),
+                          percent_magnitude(largest_change(samples, number))});
   return table;
 }
 

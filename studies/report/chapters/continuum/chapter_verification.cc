@@ -17,10 +17,6 @@ constexpr double order_slack = 0.2, order_near = 0.5;
 /// Below so much [%] it does not matter how far an element is off.
 constexpr double least_shown = 1e-3;
 
-Cell words(const std::string& text) {
-  return {text, "", Grade::none, true};
-}
-
 using fem_reference::Check;
 using fem_reference::ConvergenceStudy;
 using fem_reference::LockingPoint;
@@ -35,29 +31,19 @@ Style element_style(const std::string& element) {
                                                {'2', {"#0072B2", "", 1.8, 5, true, 0.55}},
                                                {'3', {"#009E73", "", 1.8, 9, true, 0.65}}};
   const auto found = by_degree.find(element.size() > 1 ? element[1] : ' ');
-  Style style = found == by_degree.end() ? Style{"#CC79A7", "", 1.8, 13, true} : found->second;
+  Style style = found == by_degree.end() ? Style{"#CC79A7", "", 1.8, 13} : found->second;
   if (element.find("pointwise") != std::string::npos) style.dash = "(5,3)", --style.point;
   return style;
 }
 
-/// An entry of the legend per element.
-std::vector<Series> element_legend(const std::set<std::string>& elements) {
-  std::vector<Series> legend;
-  for (const std::string& element : elements) {
-    Series entry{element, "", {}, {}, {}, element_style(element)};
-    entry.legend_only = true;
-    legend.push_back(std::move(entry));
-  }
-  return legend;
-}
+const Style guide_style{"#777777", "(2,3)", 1.5};
 
-/// The different values of a member in the order of their first appearance.
-template <typename Entry>
-std::vector<std::string> distinct(const std::vector<Entry>& entries, std::string Entry::*member) {
-  std::vector<std::string> values;
-  for (const Entry& entry : entries)
-    if (std::ranges::find(values, entry.*member) == values.end()) values.push_back(entry.*member);
-  return values;
+/// An entry per element, right of the panels.
+void add_legend(Figure& figure, const std::set<std::string>& elements) {
+  Panel& first = figure.panels.front();
+  first.key = figure.beside_panels();
+  for (const std::string& element : elements)
+    first.series.push_back(legend_entry(element, element_style(element)));
 }
 
 /// The entries with those of one problem side by side.
@@ -92,35 +78,26 @@ bool order_holds(const ConvergenceStudy& study) {
 
 Cell order_cell(const ConvergenceStudy& study, const Norm& norm) {
   const double order = study.*norm.order, expected = study.*norm.expected;
-  Cell cell = plain(number(order, 3), "theory " + number(expected, 1));
   const double missing = expected - order;
-  if (std::isfinite(missing))
-    cell.grade = missing <= order_slack  ? Grade::close
-                 : missing <= order_near ? Grade::fair
-                                         : Grade::wrong;
-  return cell;
+  return {number(order, 3), "theory " + number(expected, 1),
+          !std::isfinite(missing)  ? Grade::none
+          : missing <= order_slack ? Grade::close
+          : missing <= order_near  ? Grade::fair
+                                   : Grade::wrong};
 }
 
 Table order_table(const std::vector<ConvergenceStudy>& studies) {
-  Table table;
-  table.header = {plain("Problem"),
-                  plain("Element"),
-                  plain("ν"),
-                  plain("Meshes", "unknowns"),
-                  plain("Error of u", "L2"),
-                  plain("Order"),
-                  plain("Error of grad u", "L2"),
-                  plain("Order")};
+  Table table{heads({"Problem", "Element", "ν", "Meshes\nunknowns", "Error of u\nL2", "Order",
+                     "Error of grad u\nL2", "Order"})};
   for (const ConvergenceStudy& study : studies) {
     const std::vector<ConvergenceStudy::Mesh>& meshes = study.meshes;
     const ConvergenceStudy::Mesh finest = meshes.empty() ? ConvergenceStudy::Mesh{} : meshes.back();
-    std::vector<Cell> row{plain(study.problem), plain(element_of(study)),
-                          plain(number(study.poissons_ratio, 4)),
-                          plain(std::to_string(meshes.size()), "to " + count(finest.unknowns))};
-    for (const Norm& norm : norms) {
-      row.push_back(plain(number(finest.*norm.error, 2)));
-      row.push_back(order_cell(study, norm));
-    }
+    std::vector<Cell> row{study.problem,
+                          element_of(study),
+                          number(study.poissons_ratio, 4),
+                          {std::to_string(meshes.size()), "to " + count(finest.unknowns)}};
+    for (const Norm& norm : norms)
+      row.insert(row.end(), {number(finest.*norm.error, 2), order_cell(study, norm)});
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -128,36 +105,29 @@ Table order_table(const std::vector<ConvergenceStudy>& studies) {
 
 /// The slope h^order below the best curve of that order, so that it can be compared by eye.
 Series slope_guide(const std::vector<Series>& curves, double order) {
-  const auto best =
-      std::min_element(curves.begin(), curves.end(),
-                       [](const Series& a, const Series& b) { return a.y.back() < b.y.back(); });
-  Series guide{"", fmt::format("h^{:g}", order), {}, {}, {}, {"#777777", "(2,3)", 1.5, 0, true}};
-  const double h = best->x.back(), e = 0.6 * best->y.back();
-  for (double x : {best->x.front(), h}) {
-    guide.x.push_back(x);
-    guide.y.push_back(e * std::pow(x / h, order));
-  }
+  const Series& best =
+      *std::ranges::min_element(curves, {}, [](const Series& series) { return series.y.back(); });
+  Series guide{"", fmt::format("h^{:g}", order), guide_style};
+  const double h = best.x.back(), e = 0.6 * best.y.back();
+  for (const double x : {best.x.front(), h}) guide.add(x, e * std::pow(x / h, order));
   return guide;
 }
 
 Panel study_panel(const std::vector<ConvergenceStudy>& studies, const std::string& problem,
                   const Norm& norm) {
-  Panel panel;
-  panel.title = problem;
-  panel.x_label = shown_units().length.label("element size h");
-  panel.y_label = std::string("relative ") + norm.label;
-  panel.log_x = panel.log_y = 10;
-  panel.key = "";
+  Panel panel{.title = problem,
+              .x_label = shown_units().length.label("element size h"),
+              .y_label = std::string("relative ") + norm.label,
+              .log_x = 10,
+              .log_y = 10,
+              .key = ""};
   std::map<double, std::vector<Series>> by_order;
   for (const ConvergenceStudy& study : studies) {
     if (study.problem != problem) continue;
-    Series series{"", element_of(study), {}, {}, {}, element_style(element_of(study))};
-    for (const ConvergenceStudy::Mesh& mesh : study.meshes) {
-      const double h = mesh.h, error = mesh.*norm.error;
-      if (!(h > 0.0 && error > 0.0)) continue;
-      series.x.push_back(shown_units().length(h));
-      series.y.push_back(error);
-    }
+    Series series{"", element_of(study), element_style(element_of(study))};
+    for (const ConvergenceStudy::Mesh& mesh : study.meshes)
+      if (mesh.h > 0.0 && mesh.*norm.error > 0.0)
+        series.add(shown_units().length(mesh.h), mesh.*norm.error);
     if (series.x.empty()) continue;
     const double order = study.*norm.expected;
     if (std::isfinite(order)) by_order[order].push_back(series);
@@ -175,12 +145,8 @@ Figure orders_figure(const std::vector<ConvergenceStudy>& studies) {
   for (const ConvergenceStudy& study : studies) elements.insert(element_of(study));
   for (const std::string& problem : problems)
     for (const Norm& norm : norms) figure.panels.push_back(study_panel(studies, problem, norm));
-  Panel& first = figure.panels.front();
-  first.key = figure.beside_panels();
-  for (Series& entry : element_legend(elements)) first.series.push_back(std::move(entry));
-  Series guide{"theory's slope", "", {}, {}, {}, {"#777777", "(2,3)", 1.5, 0, true}};
-  guide.legend_only = true;
-  first.series.push_back(guide);
+  add_legend(figure, elements);
+  figure.panels.front().series.push_back(legend_entry("theory's slope", guide_style));
   return figure;
 }
 
@@ -188,9 +154,9 @@ Figure orders_figure(const std::vector<ConvergenceStudy>& studies) {
 Cell value_cell(double value, const std::string& quantity) {
   for (const ShownUnit* unit : shown_units().all()) {
     if (!quantity.ends_with(fmt::format("[{}]", unit->si)) || !std::isfinite(value)) continue;
-    return plain(with_unit(value, *unit, 5), si_note(value, std::string(unit->si)));
+    return Cell(with_unit(value, *unit, 5), si_note(value, std::string(unit->si)));
   }
-  return plain(number(value, std::abs(value) < 1e-3 ? 2 : 5));
+  return Cell(number(value, std::abs(value) < 1e-3 ? 2 : 5));
 }
 
 /// The quantity without its unit, which the value carries.
@@ -239,54 +205,43 @@ std::vector<CheckGroup> check_groups(const std::vector<Check>& checks) {
 }
 
 Table check_table(const std::vector<Check>& checks) {
-  Table table;
-  table.header = {plain("Check"),     plain("Passed"),    plain("Value"), plain("Expected"),
-                  plain("Deviation"), plain("Tolerance"), plain("Source")};
+  Table table{heads({"Check", "Passed", "Value", "Expected", "Deviation", "Tolerance", "Source"})};
   for (const CheckGroup& group : check_groups(checks)) {
-    const bool good = group.worst.passed;
-    Cell deviation = plain(number(group.worst.relative_error, 2));
-    deviation.grade = good ? Grade::close : Grade::wrong;
-    table.rows.push_back({plain(group.worst.name, without_unit(group.quantity)),
-                          plain(!good              ? "failed"
-                                : group.count == 1 ? "passed"
-                                                   : fmt::format("all {}", group.count)),
-                          value_cell(group.worst.value, group.quantity),
-                          value_cell(group.worst.expected, group.quantity), deviation,
-                          plain(number(group.worst.tolerance, 2)), words(group.source)});
+    const Check& worst = group.worst;
+    const bool good = worst.passed;
+    table.rows.push_back({{worst.name, without_unit(group.quantity)},
+                          !good              ? "failed"
+                          : group.count == 1 ? "passed"
+                                             : fmt::format("all {}", group.count),
+                          value_cell(worst.value, group.quantity),
+                          value_cell(worst.expected, group.quantity),
+                          {number(worst.relative_error, 2), "", good ? Grade::close : Grade::wrong},
+                          number(worst.tolerance, 2),
+                          prose(group.source)});
   }
   return table;
 }
 
 /// |relative error| against 0.5 - nu for one problem; NaN where the error is exactly zero.
 Panel locking_panel(const std::vector<LockingPoint>& locking, const std::string& problem) {
-  Panel panel;
-  panel.x_label = "0.5 − ν   (incompressible to the right)";
-  panel.y_label = problem + ": off by [%]";
-  panel.log_x = panel.log_y = 10;
-  panel.key = "";
+  Panel panel{.x_label = "0.5 − ν   (incompressible to the right)",
+              .y_label = problem + ": off by [%]",
+              .log_x = 10,
+              .log_y = 10,
+              .key = ""};
   std::map<std::string, Series> curves;
-  double least = 0.5, most = 0.0;
   for (const LockingPoint& point : locking) {
-    if (point.problem != problem) continue;
-    const std::string element = point.element;
     const double compressible = 0.5 - point.poissons_ratio;
-    const double error = std::abs(point.relative_error);
-    if (!(compressible > 0.0)) continue;
-    Series& series = curves.try_emplace(element, Series{"", element, {}, {}, {}, {}}).first->second;
-    series.x.push_back(compressible);
-    series.y.push_back(error > 0.0 ? 100.0 * error : meshes::unknown);
-    least = std::fmin(least, compressible), most = std::fmax(most, compressible);
+    const double error = 100.0 * std::abs(point.relative_error);
+    if (point.problem != problem || !(compressible > 0.0)) continue;
+    curves.try_emplace(point.element, Series{"", point.element, element_style(point.element)})
+        .first->second.add(compressible, error > 0.0 ? error : meshes::unknown);
   }
-  for (auto& [element, series] : curves) {
-    series.style = element_style(element);
-    panel.series.push_back(std::move(series));
-  }
+  for (auto& [element, series] : curves) panel.series.push_back(std::move(series));
   if (curves.empty()) return panel;
-  panel.x_range = Range{1.4 * most, least / 1.4};
-  double lowest = meshes::unknown, highest = least_shown;
-  for (const Series& series : panel.series)
-    for (double y : series.y) lowest = std::fmin(lowest, y), highest = std::fmax(highest, y);
-  panel.y_range = Range{std::fmax(lowest / 2.0, least_shown), 2.0 * highest};
+  Range x = extent_of(panel.series, &Series::x), y = extent_of(panel.series, &Series::y);
+  panel.x_range = Range{1.4 * x.to, x.from / 1.4};
+  panel.y_range = Range{std::fmax(y.from / 2.0, least_shown), 2.0 * std::fmax(y.to, least_shown)};
   return panel;
 }
 
@@ -297,38 +252,29 @@ Figure locking_figure(const std::vector<LockingPoint>& locking) {
   for (const std::string& problem : problems)
     figure.panels.push_back(locking_panel(locking, problem));
   const std::vector<std::string> elements = distinct(locking, &LockingPoint::element);
-  Panel& first = figure.panels.front();
-  first.key = figure.beside_panels();
-  for (Series& entry : element_legend({elements.begin(), elements.end()}))
-    first.series.push_back(std::move(entry));
+  add_legend(figure, {elements.begin(), elements.end()});
   return figure;
 }
 
 Table locking_table(const std::vector<LockingPoint>& locking) {
-  Table table;
-  table.graded = true;
-  table.header = {plain("Problem, element")};
   std::set<double> ratios;
-  for (const LockingPoint& point : locking) {
-    const double nu = point.poissons_ratio;
-    if (std::isfinite(nu)) ratios.insert(nu);
-  }
-  for (double nu : ratios) table.header.push_back(plain(number(nu, 4)));
+  for (const LockingPoint& point : locking)
+    if (std::isfinite(point.poissons_ratio)) ratios.insert(point.poissons_ratio);
+  Table table{{"Problem, element"}, true};
+  for (const double nu : ratios) table.header.emplace_back(number(nu, 4));
   std::vector<std::pair<std::string, std::string>> names;
-  std::map<std::pair<std::string, std::string>, std::map<double, double>> errors;
-  for (const LockingPoint& point : locking) {
-    const std::pair name{point.problem, point.element};
-    if (errors.try_emplace(name).second) names.push_back(name);
-    // A NaN has no place in the order of a map.
-    const double nu = point.poissons_ratio;
-    if (std::isfinite(nu)) errors[name][nu] = point.relative_error;
-  }
-  for (const auto& name : names) {
-    std::vector<Cell> row{plain(name.first, name.second)};
-    for (double nu : ratios) {
-      const auto found = errors[name].find(nu);
-      const double error = found == errors[name].end() ? meshes::unknown : found->second;
-      row.push_back({percent(error), "", grade(error)});
+  for (const LockingPoint& point : locking)
+    if (const std::pair name{point.problem, point.element};
+        std::ranges::find(names, name) == names.end())
+      names.push_back(name);
+  for (const auto& [problem, element] : names) {
+    std::vector<Cell> row{{problem, element}};
+    for (const double nu : ratios) {
+      double error = meshes::unknown;
+      for (const LockingPoint& point : locking)
+        if (point.problem == problem && point.element == element && point.poissons_ratio == nu)
+          error = point.relative_error;
+      row.push_back(error_cell(error));
     }
     table.rows.push_back(std::move(row));
   }

@@ -68,9 +68,9 @@ std::vector<PressureProfile> pressure_profiles(const RunData& run) {
 /// A page cannot hold a dot per node of a fine mesh: of every ring those of the highest and of the
 /// lowest pressure, so that peaks and scatter stay.
 Series thinned(const PressureProfile& profile, const std::string& colour) {
-  Series series{
-      depth_label(profile.depth),       depth_label(profile.depth) + " continuum", {}, {}, {},
-      {colour, "", 2.0, 7, false, 0.32}};
+  Series series{depth_label(profile.depth),
+                depth_label(profile.depth) + " continuum",
+                {colour, "", 2.0, 7, false, 0.32}};
   const double outermost = *std::max_element(profile.radius.begin(), profile.radius.end());
   std::map<int, std::pair<std::size_t, std::size_t>> extremes;
   for (std::size_t i = 0; i < profile.radius.size(); ++i) {
@@ -83,8 +83,8 @@ Series thinned(const PressureProfile& profile, const std::string& colour) {
   }
   for (const auto& [ring, pair] : extremes) {
     for (const std::size_t i : std::set<std::size_t>{pair.first, pair.second}) {
-      series.x.push_back(shown_units().length(profile.radius[i]));
-      series.y.push_back(shown_units().stress(profile.pressure[i]));
+      series.add(shown_units().length(profile.radius[i]),
+                 shown_units().stress(profile.pressure[i]));
     }
   }
   return series;
@@ -92,25 +92,22 @@ Series thinned(const PressureProfile& profile, const std::string& colour) {
 
 Series hertz_series(const fem_reference::analytic::Hertz& hertz, double depth,
                     const std::string& colour) {
-  Series series{"", depth_label(depth) + " Hertz", {}, {}, {}, {colour, "(7,4)", 1.3, 0, true}};
+  Series series{"", depth_label(depth) + " Hertz", {colour, "(7,4)", 1.3}};
   const double a = hertz.contact_radius(depth);
   for (int i = 0; i <= curve_points; ++i) {
     // Denser towards the edge, where the curve is steep.
     const double r = i == curve_points ? a : a * std::sin(std::acos(-1.0) / 2 * i / curve_points);
-    series.x.push_back(shown_units().length(r));
-    series.y.push_back(shown_units().stress(hertz.pressure(r, depth)));
+    series.add(shown_units().length(r), shown_units().stress(hertz.pressure(r, depth)));
   }
   return series;
 }
 
 Panel section_panel(const std::string& title) {
-  Panel panel;
-  panel.title = title;
-  panel.x_label = shown_units().length.label("x");
-  panel.y_label = shown_units().length.label("z");
-  panel.equal_scales = true;
-  panel.key = "";
-  return panel;
+  return {.title = title,
+          .x_label = shown_units().length.label("x"),
+          .y_label = shown_units().length.label("z"),
+          .equal_scales = true,
+          .key = ""};
 }
 
 /// Everything, at first touch.
@@ -118,15 +115,13 @@ Panel whole_section(const RunData& run) {
   Panel panel = section_panel("the whole section, at first touch");
   panel.series.push_back(section_series(run, false, thin("#333333", 0.5)));
   const double plane = first_touch(run).plane;
-  double width = 0.0, top = plane, bottom = 1e9;  // a ball beside the axis tops out below the pole
-  for (std::size_t i = 0; i < panel.series[0].x.size(); ++i) {
-    width = std::fmax(width, std::abs(panel.series[0].x[i]));
-    top = std::fmax(top, panel.series[0].y[i]);
-    bottom = std::fmin(bottom, panel.series[0].y[i]);
-  }
+  double width = 0.0;
+  Range z{1e9, plane};  // a ball beside the axis tops out below the pole
+  for (const double x : panel.series[0].x) width = std::fmax(width, std::abs(x));
+  for (const double height : panel.series[0].y) z.include(height);
   panel.x_range = Range{-1.15 * width, 1.15 * width};
   // Pole down.
-  panel.y_range = Range{top + 0.1 * width, bottom - 0.1 * width};
+  panel.y_range = Range{z.to + 0.1 * width, z.from - 0.1 * width};
   panel.series.push_back(obstacle_series(run, *panel.x_range, plane));
   return panel;
 }
@@ -160,12 +155,13 @@ Panel contact_section(const RunData& run) {
 }  // namespace
 
 void add_segment(Series& series, double x1, double z1, double x2, double z2) {
-  series.x.insert(series.x.end(), {x1, x2, meshes::unknown});
-  series.y.insert(series.y.end(), {z1, z2, meshes::unknown});
+  series.add(x1, z1);
+  series.add(x2, z2);
+  series.add(meshes::unknown, meshes::unknown);
 }
 
 Style thin(const std::string& colour, double width) {
-  return {colour, "", width, 0, true};
+  return {colour, "", width, 0};
 }
 
 bool is_half_section(const RunData& run) {
@@ -175,7 +171,7 @@ bool is_half_section(const RunData& run) {
 }
 
 Series section_series(const RunData& run, bool deformed, const Style& style, const Window& window) {
-  Series series{"", deformed ? "mesh deformed" : "mesh undeformed", {}, {}, {}, style};
+  Series series{"", deformed ? "mesh deformed" : "mesh undeformed", style};
   const bool mirror = is_half_section(run);
   for (const SectionEdge& edge : section_edges(run.section, deformed)) {
     const SectionEdge mirrored{-edge.x1, edge.z1, -edge.x2, edge.z2};
@@ -266,7 +262,7 @@ Series obstacle_series(const RunData& run, const Range& x, double plane) {
   const meshes::Obstacle obstacle = obstacle_of(run);
   const bool ends = obstacle.shape == meshes::ObstacleShape::sphere ||
                     (obstacle.shape == meshes::ObstacleShape::cylinder && !obstacle.along_x());
-  Series series{"", std::string(name(obstacle.shape)), {}, {}, {}, {"#333333", "", 2.4, 0, true}};
+  Series series{"", std::string(name(obstacle.shape)), {"#333333", "", 2.4}};
   const double one = shown_units().length(1.0);
   double from = x.from / one, to = x.to / one;
   if (ends) {
@@ -277,8 +273,8 @@ Series obstacle_series(const RunData& run, const Range& x, double plane) {
   for (int i = 0; i <= steps && from < to; ++i) {
     // Denser towards the ends, where a ball is steep.
     const double at = from + 0.5 * (to - from) * (1.0 - std::cos(std::acos(-1.0) * i / steps));
-    series.x.push_back(shown_units().length(at));
-    series.y.push_back(plane - shown_units().length(height(obstacle, {at, 0.0, 0.0})));
+    series.add(shown_units().length(at),
+               plane - shown_units().length(height(obstacle, {at, 0.0, 0.0})));
   }
   return series;
 }
@@ -312,11 +308,10 @@ Figure mesh_figure(const RunData& run) {
 }
 
 Figure pressure_figure(const RunData& run) {
-  Panel panel;
-  panel.x_label = shown_units().length.label("radius");
-  panel.y_label = shown_units().stress.label("contact pressure");
-  panel.key = "outside right top";
-  panel.y_range = Range{0.0, meshes::unknown};
+  Panel panel{.x_label = shown_units().length.label("radius"),
+              .y_label = shown_units().stress.label("contact pressure"),
+              .y_range = Range{0.0},
+              .key = "outside right top"};
   const std::vector<PressureProfile> profiles = pressure_profiles(run);
   std::vector<double> computed;
   for (const PressureProfile& profile : profiles) computed.push_back(profile.depth);
@@ -324,18 +319,14 @@ Figure pressure_figure(const RunData& run) {
   const auto hertz = hertz_contact(run);
   std::vector<Series> dots;
   for (const PressureProfile& profile : profiles) {
-    const auto found = std::find(shown.begin(), shown.end(), profile.depth);
+    const auto found = std::ranges::find(shown, profile.depth);
     if (found == shown.end()) continue;
     const std::string colour = depth_shade(std::size_t(found - shown.begin()), shown.size());
     if (hertz) panel.series.push_back(hertz_series(*hertz, profile.depth, colour));
     dots.push_back(thinned(profile, colour));
   }
   panel.series.insert(panel.series.end(), dots.begin(), dots.end());
-  if (hertz) {
-    Series entry{"Hertz", "", {}, {}, {}, {"#555555", "(7,4)", 1.3, 0, true}};
-    entry.legend_only = true;
-    panel.series.push_back(entry);
-  }
+  if (hertz) panel.series.push_back(legend_entry("Hertz", {"#555555", "(7,4)", 1.3}));
   return {"pressure", 760, 430, 1, {panel}};
 }
 

@@ -2,6 +2,7 @@
 /// result carries.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ Chapter parameter_chapter(const Fit& fit, const std::string& prefix);
 /// What the data leave open in words, singular values and the profile; figures' names begin with
 /// `prefix`. Without blocks for a fit without parameters.
 Chapter identifiability_chapter(const Fit& fit, const std::string& prefix);
+/// What further presses would tell, the best one first; `units` of parameters by their names.
+Table next_table(const std::vector<calibration::NextEntry>& next,
+                 const std::map<std::string, std::string>& units);
 /// Of measured presses: files with noise, loop, holds and repeats; the machine and what is like the
 /// misfit. Empty where files tell nothing of these.
 std::vector<Chapter> measured_chapters(const Fit& fit, const std::string& prefix);
@@ -31,8 +35,6 @@ std::string fits_answer(const CalibrationData& data);
 std::vector<std::string> fit_failures(const CalibrationData& data);
 /// The run's result in one paragraph.
 std::string calibration_answer(const CalibrationData& data);
-/// Fits with their parameters and worst errors, as plain ASCII for a terminal.
-std::string calibration_text(const CalibrationData& data);
 /// What these chapters look for in vain.
 std::vector<NotRun> missing_fit_parts(const CalibrationData& data);
 

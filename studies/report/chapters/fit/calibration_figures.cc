@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <ranges>
 
 #include "calibration/material/moduli.h"
@@ -14,6 +15,7 @@
 namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
+using calibration::FitDataRow;
 using calibration::SurrogateRow;
 
 constexpr int legend_room = 205;
@@ -35,15 +37,6 @@ std::string shortened(const std::string& text) {
   return cut;
 }
 
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
-}
-
-bool any_finite(const std::vector<double>& values) {
-  return std::ranges::any_of(values, [](double value) { return std::isfinite(value); });
-}
-
 Style curve_style(std::size_t i, std::size_t count) {
   Style style = numbered_style(i);
   if (count > most_labels) style.colour = depth_shade(i, count);
@@ -52,117 +45,111 @@ Style curve_style(std::size_t i, std::size_t count) {
   return style;
 }
 
+Series of_rows(const FitCurve& own, const std::string& label, const std::string& key,
+               const Style& style, double FitDataRow::*value) {
+  return curve(label, own.name + " " + key, style, own.rows, in(own.x_quantity, &FitDataRow::x),
+               in(own.y_quantity, value));
+}
+
 Series points(const FitCurve& curve, const Style& style, bool labelled) {
-  Series series{labelled ? shortened(curve.name) : "", curve.name + " measured", {}, {}, {}, style};
-  series.x = scaled(curve.x, curve.x_quantity.factor);
-  series.y = scaled(curve.measured, curve.y_quantity.factor);
+  Series series = of_rows(curve, labelled ? shortened(curve.name) : "", "measured",
+                          style.as_points(), &FitDataRow::measured);
+  const auto sigma =
+      curve.knows(&FitDataRow::total_sigma) ? &FitDataRow::total_sigma : &FitDataRow::sigma;
   if (curve.has_sigma())
-    series.error = scaled(any_finite(curve.total_sigma) ? curve.total_sigma : curve.sigma,
-                          curve.y_quantity.factor);
-  series.style.line = false;
-  if (curve.x.size() > many_points) series.style.opacity = 0.3, series.style.point_size = 0.5;
+    for (const FitDataRow& row : curve.rows) series.error.push_back(curve.y_quantity(row.*sigma));
+  if (curve.rows.size() > many_points) series.style.opacity = 0.3, series.style.point_size = 0.5;
   return series;
 }
 
-Series line(const FitCurve& curve, const std::vector<double>& values, const std::string& key,
-            const Style& style, const std::string& dash) {
-  Series series{"", curve.name + " " + key, {}, {}, {}, style};
-  series.x = scaled(curve.x, curve.x_quantity.factor);
-  series.y = scaled(values, curve.y_quantity.factor);
-  series.style.point = 0;
-  series.style.dash = dash;
-  return series;
+Series line(const FitCurve& curve, double FitDataRow::*value, const std::string& key, Style style,
+            const std::string& dash) {
+  style.dash = dash;
+  return of_rows(curve, "", key, style.as_line(), value);
 }
 
 constexpr const char* left_out_dash = "(2,3)";
 
 /// Entries of the legend that say what a line is.
 void add_line_kinds(Panel& panel, bool left_out) {
-  const auto entry = [&](const char* label, const char* dash) {
-    Series series{label, label, {}, {}, {}, {"#555555", dash, 1.6, 0, true}};
-    series.legend_only = true;
-    panel.series.push_back(std::move(series));
-  };
-  entry("fitted", "");
-  if (left_out) entry("fitted to the others", left_out_dash);
+  panel.series.push_back(legend_entry("fitted", {"#555555", "", 1.6}));
+  if (left_out)
+    panel.series.push_back(legend_entry("fitted to the others", {"#555555", left_out_dash, 1.6}));
 }
 
+using Curves = std::vector<const FitCurve*>;
+
 /// Measurements that span more than a decade are spread in decades, too.
-bool spans_decades(const std::vector<const FitCurve*>& curves) {
-  double least = meshes::unknown, most = meshes::unknown;
-  for (const FitCurve* curve : curves) {
-    for (const double x : curve->x) least = std::fmin(least, x), most = std::fmax(most, x);
-  }
-  return least > 0.0 && most > 30.0 * least;
+bool spans_decades(const Curves& curves) {
+  Range x;
+  for (const FitCurve* curve : curves)
+    for (const FitDataRow& row : curve->rows) x.include(row.x);
+  return x.from > 0.0 && x.to > 30.0 * x.from;
 }
 
 /// Residuals of presses over travel are shown as forces: in percent they grow without bound at
 /// touch.
-bool as_forces(const std::vector<const FitCurve*>& curves) {
-  return std::ranges::all_of(
-      curves, [](const FitCurve* curve) { return curve->course && curve->course->noise > 0.0; });
+bool as_forces(const Curves& curves) {
+  return std::ranges::all_of(curves, [](const FitCurve* curve) {
+    return curve->entry.course && curve->entry.course->noise > 0.0;
+  });
 }
 
 /// What a residual is divided by; `sigma` as chi-square counts it, where the file tells.
 enum class ResidualUnit { sigma, percent, own };
 
 Series way_back(const FitCurve& curve, const Style& style) {
-  Series series{"", curve.name + " way back", {}, {}, {}, style};
-  series.x = scaled(curve.course->back_x, curve.x_quantity.factor);
-  series.y = scaled(curve.course->back_y, curve.y_quantity.factor);
-  series.style.point = 0;
+  const calibration::LoadingHistory& course = *curve.entry.course;
+  Series series{"", curve.name + " way back", style.as_line()};
+  for (std::size_t i = 0; i < course.back_x.size(); ++i)
+    series.add(curve.x_quantity(course.back_x[i]), curve.y_quantity(course.back_y[i]));
   series.style.width = 1.0;
   series.style.dash = "(6,4)";
   return series;
 }
 
-Series residuals(const FitCurve& curve, ResidualUnit shown, const Style& style) {
-  Series series{"", curve.name, scaled(curve.x, curve.x_quantity.factor), {}, {}, style};
-  series.style.width = 1.0;
-  if (shown == ResidualUnit::sigma && any_finite(curve.whitened)) {
-    series.y = curve.whitened;
-    return series;
-  }
-  for (std::size_t i = 0; i < curve.x.size(); ++i) {
-    const double residual = curve.measured[i] - curve.fitted[i];
-    const double unit = shown == ResidualUnit::sigma     ? curve.sigma[i]
-                        : shown == ResidualUnit::percent ? std::abs(curve.measured[i]) / 100.0
-                                                         : 1.0 / curve.y_quantity.factor;
-    series.y.push_back(unit > 0.0 ? residual / unit : meshes::unknown);
-  }
-  return series;
+Series residuals(const FitCurve& own, ResidualUnit shown, Style style) {
+  style.width = 1.0;
+  const bool whitened = shown == ResidualUnit::sigma && own.knows(&FitDataRow::whitened_residual);
+  return curve("", own.name, style, own.rows, in(own.x_quantity, &FitDataRow::x),
+               [&](const FitDataRow& row) {
+                 if (whitened) return row.whitened_residual;
+                 const double residual = row.measured - row.fitted;
+                 const double unit = shown == ResidualUnit::sigma     ? row.sigma
+                                     : shown == ResidualUnit::percent ? std::abs(row.measured) / 100
+                                                                      : 1.0 / own.y_quantity.factor;
+                 return unit > 0.0 ? residual / unit : meshes::unknown;
+               });
 }
 
-Figure curve_figure(const std::vector<const FitCurve*>& curves, const std::string& name) {
+Figure curve_figure(const Curves& curves, const std::string& name) {
   const Quantity &x = curves.front()->x_quantity, &y = curves.front()->y_quantity;
-  Figure figure{name, 860, 560, 1, {}};
-  const bool over_sigma =
-      std::ranges::all_of(curves, [](const FitCurve* curve) { return curve->has_sigma(); });
-  const bool left_out = std::ranges::any_of(
-      curves, [](const FitCurve* curve) { return any_finite(curve->left_out); });
-  Panel above, beneath;
-  above.x_label = beneath.x_label = x.label();
-  above.y_label = y.label();
+  Figure figure{name, 860, 560, 1, {}, legend_room};
+  const auto any = [&](const auto& has) {
+    return std::ranges::any_of(curves, [&](const FitCurve* curve) { return has(*curve); });
+  };
+  const bool over_sigma = std::ranges::all_of(curves, std::mem_fn(&FitCurve::has_sigma));
   const bool forces = !over_sigma && as_forces(curves);
   const ResidualUnit unit = over_sigma ? ResidualUnit::sigma
                             : forces   ? ResidualUnit::own
                                        : ResidualUnit::percent;
-  const bool model_error =
-      std::ranges::any_of(curves, [](const FitCurve* curve) { return curve->has_model_error(); });
-  beneath.y_label = over_sigma ? (model_error ? "whitened residual" : "residual / sigma")
-                    : forces   ? "residual [" + y.unit + "]"
-                               : "residual [% of measured]";
-  beneath.key.clear();
+  const bool model_error = any(std::mem_fn(&FitCurve::has_model_error));
+  Panel above{.x_label = x.label(), .y_label = y.label(), .key = figure.beside_panels()};
+  Panel beneath{.x_label = x.label(),
+                .y_label = over_sigma ? (model_error ? "whitened residual" : "residual / sigma")
+                           : forces   ? "residual [" + y.unit + "]"
+                                      : "residual [% of measured]",
+                .key = ""};
   if (!forces && spans_decades(curves)) above.log_x = beneath.log_x = 10;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const FitCurve& curve = *curves[i];
     const Style style = curve_style(i, curves.size());
     above.series.push_back(points(curve, style, curves.size() <= most_labels));
-    if (curve.course && !curve.course->back_x.empty())
+    if (curve.entry.course && !curve.entry.course->back_x.empty())
       above.series.push_back(way_back(curve, style));
-    if (any_finite(curve.left_out))
-      above.series.push_back(line(curve, curve.left_out, "left out", style, left_out_dash));
-    above.series.push_back(line(curve, curve.fitted, "fitted", style, ""));
+    if (curve.knows(&FitDataRow::left_out))
+      above.series.push_back(line(curve, &FitDataRow::left_out, "left out", style, left_out_dash));
+    above.series.push_back(line(curve, &FitDataRow::fitted, "fitted", style, ""));
     beneath.series.push_back(residuals(curve, unit, style));
   }
   if (over_sigma) {
@@ -174,48 +161,37 @@ Figure curve_figure(const std::vector<const FitCurve*>& curves, const std::strin
   }
   if (forces) {
     double noise = 0.0;
-    for (const FitCurve* curve : curves) noise = std::fmax(noise, curve->course->noise_of_value());
+    for (const FitCurve* curve : curves)
+      noise = std::fmax(noise, curve->entry.course->noise_of_value());
     beneath.band = Band{-2.0 * noise * y.factor, 2.0 * noise * y.factor};
   }
-  add_line_kinds(above, left_out);
-  figure.right_margin = legend_room;
-  above.key = figure.beside_panels();
+  add_line_kinds(above, any([](const FitCurve& c) { return c.knows(&FitDataRow::left_out); }));
   figure.panels = {above, beneath};
   return figure;
 }
 
 Panel surrogate_panel(const Fit& fit, double SurrogateRow::*quantity, const std::string& name,
-                      const std::vector<double>& at_knots, const std::string& y_label,
-                      double factor) {
-  Panel panel;
-  panel.x_label = shown_units().length.label("indentation");
-  panel.y_label = y_label;
-  panel.series.push_back(
-      {name,
-       name,
-       scaled(column(fit.surrogate, &SurrogateRow::indentation), shown_units().length.factor),
-       scaled(column(fit.surrogate, quantity), factor),
-       {},
-       {"#0072B2", "", 2.0, 0, true}});
-  Series knots{"knots",
-               name + " at knots",
-               scaled(fit.surrogate_notes.knots, shown_units().length.factor),
-               scaled(at_knots, factor),
-               {},
-               {"#D55E00", "", 1.0, 7, false}};
-  if (knots.x.size() == knots.y.size()) panel.series.push_back(std::move(knots));
-  panel.series.front().label = name == "force" ? "force" : "stiffness dF/dδ";
+                      const std::string& label, const std::vector<double>& at_knots,
+                      const std::string& y_label, const ShownUnit& unit) {
+  const ShownUnit& length = shown_units().length;
+  Panel panel = over_indentation(y_label);
+  panel.series.push_back(curve(label, name, {"#0072B2"}, fit.surrogate,
+                               in(length, &SurrogateRow::indentation), in(unit, quantity)));
+  const std::vector<double>& places = fit.surrogate_notes.knots;
+  if (places.size() != at_knots.size()) return panel;
+  Series knots{"knots", name + " at knots", {"#D55E00", "", 1.0, 7, false}};
+  for (std::size_t i = 0; i < places.size(); ++i) knots.add(length(places[i]), unit(at_knots[i]));
+  panel.series.push_back(std::move(knots));
   return panel;
 }
 
 /// The area between the limits of the force; none where the file has no limits.
 Series surrogate_band(const Fit& fit) {
-  Series band{"band", "band", {}, {}, {}, {"#0072B2", "", 1.0, 0, true}};
+  Series band{"band", "band", {"#0072B2", "", 1.0}};
   band.filled = true;
   const auto add = [&](const SurrogateRow& row, double force) {
-    if (!std::isfinite(row.force_lower + row.force_upper)) return;
-    band.x.push_back(shown_units().length(row.indentation));
-    band.y.push_back(shown_units().force(force));
+    if (std::isfinite(row.force_lower + row.force_upper))
+      band.add(shown_units().length(row.indentation), shown_units().force(force));
   };
   for (const SurrogateRow& row : fit.surrogate) add(row, row.force_upper);
   for (const SurrogateRow& row : std::views::reverse(fit.surrogate)) add(row, row.force_lower);
@@ -245,9 +221,9 @@ double rule_modulus(const Fit& fit) {
 }  // namespace
 
 std::vector<Figure> curve_figures(const Fit& fit, const std::string& prefix) {
-  std::vector<std::vector<const FitCurve*>> groups;
+  std::vector<Curves> groups;
   for (const FitCurve& curve : fit.curves) {
-    if (!any_finite(curve.measured)) continue;
+    if (!curve.knows(&FitDataRow::measured)) continue;
     const auto group = std::ranges::find_if(groups, [&](const auto& other) {
       return other.front()->x_quantity.label() == curve.x_quantity.label() &&
              other.front()->y_quantity.label() == curve.y_quantity.label();
@@ -267,38 +243,36 @@ std::vector<Figure> curve_figures(const Fit& fit, const std::string& prefix) {
 Figure singular_value_figure(const Fit& fit, const std::string& prefix) {
   Figure figure{prefix + "_singular_values", 760, 330, 1, {}};
   const std::vector<double>& values = fit.file.singular_values;
-  const double largest = largest_magnitude(values);
+  const double largest = largest_magnitude(values), limit = open_share * largest;
   if (values.size() < 2 || !(largest > 0.0)) return figure;
-  double least = open_share * largest;
+  double least = limit;
   for (const double value : values)
     if (value > 0.0) least = std::fmin(least, value);
-  const Range range{least / 4.0, largest * 3.0};
-  Panel panel;
-  panel.x_label = "direction, the best determined first";
-  panel.y_label = "singular value";
-  panel.log_y = 10;
-  panel.x_range = Range{0.4, double(values.size()) + 0.6};
-  panel.y_range = range;
-  panel.key = "outside right top";
-  Series bars{"", "bars", {}, {}, {}, {"#0072B2", "", 5.0, 0, true}};
-  Series heads{"singular values", "", {}, {}, {}, {"#0072B2", "", 1.0, 7, false, 1.2}};
+  const Range x{0.4, double(values.size()) + 0.6}, y{least / 4.0, largest * 3.0};
+  Panel panel{.x_label = "direction, the best determined first",
+              .y_label = "singular value",
+              .x_range = x,
+              .y_range = y,
+              .log_y = 10,
+              .key = "outside right top"};
+  Series bars{"", "bars", {"#0072B2", "", 5.0}};
+  Series heads{"singular values", "", {"#0072B2", "", 1.0, 7, false, 1.2}};
   for (std::size_t i = 0; i < values.size(); ++i) {
     panel.x_names.push_back(std::to_string(i + 1));
     if (!(values[i] > 0.0)) continue;
-    const double x = double(i + 1);
-    bars.x.insert(bars.x.end(), {x, x, meshes::unknown});
-    bars.y.insert(bars.y.end(), {range.from, values[i], meshes::unknown});
-    heads.x.push_back(x), heads.y.push_back(values[i]);
+    const double at = double(i + 1);
+    bars.add(at, y.from);
+    bars.add(at, values[i]);
+    bars.add(meshes::unknown, meshes::unknown);
+    heads.add(at, values[i]);
   }
-  const double limit = open_share * largest;
   panel.series = {bars,
                   heads,
                   {fmt::format("{} of the largest", percent_magnitude(open_share)),
                    "limit",
-                   {panel.x_range->from, panel.x_range->to},
-                   {limit, limit},
-                   {},
-                   {"#D55E00", "(6,4)", 1.4, 0, true}}};
+                   {"#D55E00", "(6,4)", 1.4},
+                   {x.from, x.to},
+                   {limit, limit}}};
   figure.panels = {panel};
   return figure;
 }
@@ -306,12 +280,13 @@ Figure singular_value_figure(const Fit& fit, const std::string& prefix) {
 Figure surrogate_figure(const Fit& fit, const std::string& prefix) {
   Figure figure{prefix + "_surrogate", 760, 560, 1, {}};
   if (fit.surrogate.empty()) return figure;
+  const ShownUnits& units = shown_units();
   Panel force =
-      surrogate_panel(fit, &SurrogateRow::force, "force", fit.surrogate_notes.force,
-                      shown_units().force.label("normal force F"), shown_units().force.factor);
-  Panel stiffness =
-      surrogate_panel(fit, &SurrogateRow::stiffness, "stiffness", fit.surrogate_notes.stiffness,
-                      shown_units().stiffness.label("dF/dδ"), shown_units().stiffness.factor);
+      surrogate_panel(fit, &SurrogateRow::force, "force", "force", fit.surrogate_notes.force,
+                      units.force.label("normal force F"), units.force);
+  const Panel stiffness = surrogate_panel(fit, &SurrogateRow::stiffness, "stiffness",
+                                          "stiffness dF/dδ", fit.surrogate_notes.stiffness,
+                                          units.stiffness.label("dF/dδ"), units.stiffness);
   if (Series band = surrogate_band(fit); !band.x.empty())
     force.series.insert(force.series.begin(), std::move(band));
   figure.panels = {force, stiffness};
@@ -342,26 +317,22 @@ Figure fitted_moduli_figure(const Fit& fit, const std::string& prefix) {
 Figure transfer_figure(const CalibrationData& data) {
   Figure figure{"transfer_error", 860, 430, 1, {}};
   for (const std::string& prediction : data.predictions) {
-    Panel panel;
+    Panel panel = over_indentation("force error [%]", "");
     panel.title = shortened(prediction);
-    panel.x_label = shown_units().length.label("indentation");
-    panel.y_label = "force error [%]";
-    panel.key.clear();
     double unsure = 0.0;
+    bool any = false;
     for (std::size_t i = 0; i < data.fits.size(); ++i) {
-      Series curve{shortened(data.fits[i].name), data.fits[i].name, {}, {}, {}, {}};
-      curve.style = curve_style(i, data.fits.size());
+      const std::string& fit = data.fits[i].name;
+      Series& curve =
+          panel.series.emplace_back(Series{shortened(fit), fit, curve_style(i, data.fits.size())});
       for (const TransferRow& row : data.transfer) {
-        if (row.fit != data.fits[i].name || row.prediction != prediction) continue;
-        curve.x.push_back(shown_units().length(row.indentation));
-        curve.y.push_back(100.0 * row.relative_error);
+        if (row.fit != fit || row.prediction != prediction) continue;
+        curve.add(shown_units().length(row.indentation), 100.0 * row.relative_error);
         unsure = std::fmax(unsure, 100.0 * std::abs(row.reference_error));
+        any = any || std::isfinite(row.relative_error);
       }
-      panel.series.push_back(std::move(curve));
     }
     if (unsure > 0.0) panel.band = Band{-unsure, unsure};
-    const bool any = std::ranges::any_of(panel.series,
-                                         [](const Series& series) { return any_finite(series.y); });
     if (any) figure.panels.push_back(std::move(panel));
   }
   if (figure.panels.empty()) return figure;

@@ -14,10 +14,9 @@
 namespace fingertip::studies::report::inline chapters::inline fit {
 namespace {
 
-Cell words(const std::string& text) {
-  Cell cell = plain(text.empty() ? "–" : text);
-  cell.words = true;
-  return cell;
+bool any_left_out(const Fit& fit) {
+  return std::ranges::any_of(
+      fit.curves, [](const FitCurve& curve) { return std::isfinite(curve.left_out_error()); });
 }
 
 /// Chi-square and what it tells, or why there is none.
@@ -28,14 +27,12 @@ void add_goodness(ChapterData& chapter, const Fit& fit) {
   chapter["sigma"] = std::ranges::any_of(fit.curves, &FitCurve::has_sigma);
   chapter["model_error"] = fit.file.model_error.value_or("");
   chapter["shared"] = std::ranges::any_of(fit.curves, &FitCurve::has_model_error);
-  // Files of earlier versions tell sigma alone.
   chapter["unshown"] =
       fit.file.model_error && std::ranges::none_of(fit.curves, [](const FitCurve& curve) {
-        return std::ranges::any_of(curve.whitened, [](double r) { return std::isfinite(r); });
+        return curve.knows(&calibration::FitDataRow::whitened_residual);
       });
-  chapter["priors"] = std::ranges::any_of(fit.parameters, [](const FitParameter& parameter) {
-    return std::isfinite(parameter.prior_mean);
-  });
+  chapter["priors"] = std::ranges::any_of(
+      fit.parameters, [](const FitParameter& parameter) { return parameter.prior.has_value(); });
   chapter["deviation"] = if_known(deviation, amount(deviation, unit));
   chapter["chi_square"] = if_known(chi_square, number(chi_square));
   chapter["freedom"] = count(double(fit.file.degrees_of_freedom));
@@ -46,33 +43,27 @@ void add_goodness(ChapterData& chapter, const Fit& fit) {
 }
 
 /// Residuals that keep their sign longer than chance would are the model's, not the noise's.
-Cell structure_cell(const FitCurve& curve) {
-  Cell cell = words(curve.structure);
-  if (std::isfinite(curve.structure_probability))
-    cell.note = "probability " + number(curve.structure_probability, 2);
-  return cell;
+Cell structure_cell(const calibration::ResidualStructure& structure) {
+  return {structure.statement.empty() ? "–" : structure.statement,
+          if_known(structure.probability, "probability " + number(structure.probability, 2)),
+          Grade::none, true};
 }
 
-Table curve_table(const Fit& fit, bool left_out) {
-  Table table;
-  table.graded = true;
-  table.header = {plain("Curve"), plain("Points"), plain("Worst", "residual"),
-                  plain("Rms residual", "over rms measured"), plain("Runs of equal sign")};
+Table curve_table(const Fit& fit) {
+  Table table{heads({"Curve", "Points", "Worst\nresidual", "Rms residual\nover rms measured",
+                     "Left out\nworst error", "Runs of equal sign"}),
+              true};
   table.header.back().words = true;
-  if (left_out) table.header.insert(table.header.end() - 1, plain("Left out", "worst error"));
   for (const FitCurve& curve : fit.curves) {
-    const double points =
-        std::isfinite(curve.points) || curve.x.empty() ? curve.points : double(curve.x.size());
-    const double rms = curve.relative_rms();
-    std::vector<Cell> row{plain(curve.name, curve.condition),
-                          plain(count(points)),
-                          {percent_magnitude(curve.worst), "", grade(curve.worst)},
-                          {percent_magnitude(rms), "", grade(rms)}};
-    if (left_out)
-      row.push_back({percent_magnitude(curve.left_out_error), "", grade(curve.left_out_error)});
-    row.push_back(structure_cell(curve));
-    table.rows.push_back(std::move(row));
+    const std::size_t points = curve.entry.points > 0 ? curve.entry.points : curve.rows.size();
+    table.rows.push_back({{curve.name, curve.condition},
+                          points > 0 ? count(double(points)) : "–",
+                          magnitude_cell(curve.entry.worst_relative_residual),
+                          magnitude_cell(curve.relative_rms()),
+                          magnitude_cell(curve.left_out_error()),
+                          structure_cell(curve.entry.structure)});
   }
+  if (!any_left_out(fit)) table.drop_column(4);
   return table;
 }
 
@@ -90,8 +81,6 @@ std::string how_it_was_made(const Fit& fit) {
 }
 
 Chapter quality_chapter(const Fit& fit, const std::string& prefix) {
-  const bool left_out = std::ranges::any_of(
-      fit.curves, [](const FitCurve& curve) { return std::isfinite(curve.left_out_error); });
   ChapterData chapter("fit");
   chapter.id = prefix;
   chapter["name"] = fit.name;
@@ -102,15 +91,16 @@ Chapter quality_chapter(const Fit& fit, const std::string& prefix) {
   chapter["made"] = how_it_was_made(fit);
   chapter["statement"] = as_shown(fit.file.statement);
   add_goodness(chapter, fit);
-  chapter["left_out"] = left_out;
+  chapter["left_out"] = any_left_out(fit);
   chapter["travel"] = fit.file.rig.has_value();
-  chapter["noise"] = std::ranges::any_of(
-      fit.curves, [](const FitCurve& curve) { return curve.course && curve.course->noise > 0.0; });
+  chapter["noise"] = std::ranges::any_of(fit.curves, [](const FitCurve& curve) {
+    return curve.entry.course && curve.entry.course->noise > 0.0;
+  });
   chapter.figures = curve_figures(fit, prefix);
   WordList figures;
   for (const Figure& figure : chapter.figures) figures.emplace_back()["figure"] = figure.name;
   chapter["figures"] = std::move(figures);
-  chapter.tables["curves"] = curve_table(fit, left_out);
+  chapter.tables["curves"] = curve_table(fit);
   return written(std::move(chapter));
 }
 
@@ -139,14 +129,15 @@ std::string estimates_of(const Fit& fit) {
 
 double worst_residual(const Fit& fit) {
   double worst = meshes::unknown;
-  for (const FitCurve& curve : fit.curves) worst = std::fmax(worst, curve.worst);
+  for (const FitCurve& curve : fit.curves)
+    worst = std::fmax(worst, curve.entry.worst_relative_residual);
   return worst;
 }
 
 /// The result of one fit in a few sentences.
 std::string fit_answer(const Fit& fit) {
   double left_out = meshes::unknown;
-  for (const FitCurve& curve : fit.curves) left_out = std::fmax(left_out, curve.left_out_error);
+  for (const FitCurve& curve : fit.curves) left_out = std::fmax(left_out, curve.left_out_error());
   const double worst = worst_residual(fit);
   Words words;
   words["estimates"] = estimates_of(fit);
@@ -163,16 +154,19 @@ std::string fit_answer(const Fit& fit) {
 
 /// A row per fit.
 Chapter fits_chapter(const CalibrationData& data) {
-  ChapterData chapter("fits");
-  Table& table = chapter.tables["fits"];
-  table.header = {plain("Fit"), plain("Curves"), words("Parameters"), plain("Worst residual"),
-                  plain("Its own tests")};
+  Table table{heads({"Fit", "Curves", "Parameters", "Worst residual", "Its own tests"})};
+  table.header[2].words = true;
   for (const Fit& fit : data.fits) {
     if (fit.file.empty()) continue;
-    table.rows.push_back({plain(fit.name, fit.model), plain(std::to_string(fit.curves.size())),
-                          words(estimates_of(fit)), plain(percent_magnitude(worst_residual(fit))),
-                          plain(fit.file.failed.empty() ? "passed" : "not passed")});
+    const std::string estimates = estimates_of(fit);
+    table.rows.push_back({{fit.name, fit.model},
+                          std::to_string(fit.curves.size()),
+                          prose(estimates.empty() ? "–" : estimates),
+                          percent_magnitude(worst_residual(fit)),
+                          fit.file.failed.empty() ? "passed" : "not passed"});
   }
+  ChapterData chapter("fits");
+  chapter.tables["fits"] = std::move(table);
   return written(std::move(chapter));
 }
 
@@ -228,7 +222,7 @@ std::vector<NotRun> missing_fit_parts(const CalibrationData& data) {
     need(!fit.file.empty(), "Fit", "calibration.json");
     if (fit.file.empty()) continue;
     const bool measured =
-        std::ranges::any_of(fit.curves, [](const FitCurve& curve) { return !curve.x.empty(); });
+        std::ranges::any_of(fit.curves, [](const FitCurve& curve) { return !curve.rows.empty(); });
     need(measured, "Measured and fitted curves", "fit_data.csv");
     need(!fit.parameters.empty(), "Parameters", "calibration.json: parameters");
     if (fit.parameters.size() > 1) {
@@ -237,10 +231,8 @@ std::vector<NotRun> missing_fit_parts(const CalibrationData& data) {
       need(fit.file.profile.has_value(), "Profile likelihood", "calibration.json: profile");
     }
     if (fit.curves.size() > 1)
-      need(std::ranges::any_of(
-               fit.curves,
-               [](const FitCurve& curve) { return std::isfinite(curve.left_out_error); }),
-           "Curves left out one after the other", "calibration.json: curves: left_out");
+      need(any_left_out(fit), "Curves left out one after the other",
+           "calibration.json: curves: left_out");
     need(!fit.surrogate.empty(), "Surrogate", "surrogate.csv, surrogate.json");
   }
   if (data.study && data.transfer.empty())

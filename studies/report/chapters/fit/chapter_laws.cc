@@ -20,21 +20,12 @@ constexpr std::size_t most_panels = 6, most_points = 400;
 constexpr const char* fit_colour = "#0072B2";
 constexpr const char* second_colour = "#D55E00";
 
-bool in_time(const LawTestEntry& test) {
-  return test.course == "relaxation";
-}
-
-enum class Side { measured, computed };
-
-Series stress_series(const std::vector<LawDataRow>& rows, bool over_time, Side side,
-                     const std::string& key, const Style& style) {
-  Series series{"", key, {}, {}, {}, style};
-  for (const LawDataRow& row : rows) {
-    const double x = over_time ? row.time : row.deformation;
-    if (over_time && !(x > 0.0)) continue;
-    series.x.push_back(x);
-    series.y.push_back(shown_units().stress(side == Side::measured ? row.measured : row.computed));
-  }
+Series stress_series(const std::vector<LawDataRow>& rows, bool over_time, const std::string& key,
+                     const Style& style, double LawDataRow::*stress) {
+  Series series{"", key, style};
+  for (const LawDataRow& row : rows)
+    if (!over_time || row.time > 0.0)
+      series.add(over_time ? row.time : row.deformation, shown_units().stress(row.*stress));
   return series;
 }
 
@@ -44,24 +35,21 @@ std::string deformation_label(const LawTestEntry& test) {
 }
 
 Panel test_panel(const LawResult& result, const LawTestEntry& test) {
-  Panel panel;
-  panel.title = test.name + (test.use == "fit" ? "" : " (not fitted)");
-  const bool over_time = in_time(test);
-  panel.x_label = over_time ? "time [s]" : deformation_label(test);
-  panel.y_label = shown_units().stress.label("stress");
-  panel.key = "";
-  if (over_time) panel.log_x = 10;
-  const LawEntry &taken = result.taken(), &first = result.file.laws.front();
-  const auto rows = law_rows(result, taken.law, test, most_points);
-  Style points{"#888888", "", 1.0, 6, false};
-  points.point_size = 0.5;
-  panel.series.push_back(stress_series(rows, over_time, Side::measured, "measured", points));
-  if (first.law != taken.law)
-    panel.series.push_back(stress_series(law_rows(result, first.law, test, most_points), over_time,
-                                         Side::computed, first.law,
-                                         {second_colour, "(6,3)", 1.6, 0, true}));
-  panel.series.push_back(
-      stress_series(rows, over_time, Side::computed, taken.law, {fit_colour, "", 1.4, 0, true}));
+  const bool over_time = test.course == "relaxation";
+  Panel panel{.title = test.name + (test.use == "fit" ? "" : " (not fitted)"),
+              .x_label = over_time ? "time [s]" : deformation_label(test),
+              .y_label = shown_units().stress.label("stress"),
+              .log_x = over_time ? 10 : 0,
+              .key = ""};
+  const std::string &taken = result.taken().law, &first = result.file.laws.front().law;
+  const auto add = [&](const std::string& law, const std::string& key, const Style& style,
+                       double LawDataRow::*stress) {
+    panel.series.push_back(
+        stress_series(law_rows(result, law, test, most_points), over_time, key, style, stress));
+  };
+  add(taken, "measured", {"#888888", "", 1.0, 6, false, 0.5}, &LawDataRow::measured);
+  if (first != taken) add(first, first, {second_colour, "(6,3)", 1.6}, &LawDataRow::computed);
+  add(taken, taken, {fit_colour, "", 1.4}, &LawDataRow::computed);
   return panel;
 }
 
@@ -87,24 +75,6 @@ std::string stability(const LawEntry& law) {
   return unstable ? "to stretch " + number(unstable->stretch, 3) : "yes";
 }
 
-Table coefficient_table(const LawEntry& law) {
-  Table table;
-  table.header = {plain("Coefficient"), plain("Estimate"), plain("95 % from"), plain("to"),
-                  plain("Unit")};
-  for (const auto& parameter : law.parameters) {
-    const ShownUnit* shown = shown_units().of(parameter.unit);
-    const auto value = [&](double si) {
-      return plain(number(shown == nullptr ? si : (*shown)(si)));
-    };
-    table.rows.push_back({plain(parameter.name, parameter.at_bound ? "at its bound" : ""),
-                          value(parameter.estimate), value(parameter.lower), value(parameter.upper),
-                          plain(shown != nullptr        ? std::string(shown->name)
-                                : parameter.unit == "1" ? "–"
-                                                        : parameter.unit)});
-  }
-  return table;
-}
-
 /// How a test counts: "cycles, uniaxial", "planar, at 0.1 1/s".
 std::string way_of(const LawTestEntry& test) {
   if (test.course != "slow") return test.course + ", " + test.kind;
@@ -112,36 +82,24 @@ std::string way_of(const LawTestEntry& test) {
 }
 
 Table test_table(const LawEntry& law) {
-  const bool loops = std::ranges::any_of(
-      law.tests, [](const LawTestEntry& test) { return std::isfinite(test.loop_measured); });
-  Table table;
-  table.graded = true;
-  table.header = {plain("Test"), plain("Points"), plain("Error", "rms"), plain("Error", "largest"),
-                  plain("Within")};
-  if (loops) {
-    table.header.push_back(plain("Loop", "measured, J/m³"));
-    table.header.push_back(plain("Loop", "of the law"));
-  }
-  table.header.push_back(plain("Residuals"));
+  Table table{heads({"Test", "Points", "Error\nrms", "Error\nlargest", "Within",
+                     "Loop\nmeasured, J/m³", "Loop\nof the law", "Residuals"}),
+              true};
   table.header.back().words = true;
   for (const LawTestEntry& test : law.tests) {
-    std::vector<Cell> row = {
-        plain(test.name, way_of(test) + (test.use == "fit" ? "" : ", not fitted")),
-        plain(count(double(test.points))),
-        {percent_magnitude(test.rms_relative), "", grade(test.rms_relative)},
-        {percent_magnitude(test.largest_relative), "", grade(test.largest_relative)},
-        plain(std::isfinite(test.within) ? percent_magnitude(test.within) : "–")};
-    if (loops) {
-      const double error = test.loop_computed / test.loop_measured - 1.0;
-      row.push_back(plain(number(test.loop_measured)));
-      row.push_back(
-          {number(test.loop_computed), std::isfinite(error) ? percent(error) : "", grade(error)});
-    }
-    Cell residuals = plain(test.structure.statement);
-    residuals.words = true;
-    row.push_back(residuals);
-    table.rows.push_back(std::move(row));
+    const double error = test.loop_computed / test.loop_measured - 1.0;
+    table.rows.push_back(
+        {{test.name, way_of(test) + (test.use == "fit" ? "" : ", not fitted")},
+         count(double(test.points)),
+         magnitude_cell(test.rms_relative),
+         magnitude_cell(test.largest_relative),
+         percent_magnitude(test.within),
+         number(test.loop_measured),
+         {number(test.loop_computed), if_known(error, percent(error)), grade(error)},
+         prose(test.structure.statement)});
   }
+  const auto has_loop = [](const auto& test) { return std::isfinite(test.loop_measured); };
+  if (std::ranges::none_of(law.tests, has_loop)) table.drop_column(6), table.drop_column(5);
   return table;
 }
 
@@ -164,31 +122,43 @@ std::vector<LawDataRow> law_rows(const LawResult& result, const std::string& law
   return some;
 }
 
+Table coefficient_table(const LawEntry& law) {
+  Table table{heads({"Coefficient", "Estimate", "95 % from", "to", "Unit"})};
+  for (const auto& parameter : law.parameters) {
+    const ShownUnit* shown = shown_units().of(parameter.unit);
+    const auto value = [&](double si) { return number(shown == nullptr ? si : (*shown)(si)); };
+    table.rows.push_back({{parameter.name, parameter.at_bound ? "at its bound" : ""},
+                          value(parameter.estimate),
+                          value(parameter.lower),
+                          value(parameter.upper),
+                          shown != nullptr        ? unit_name(*shown)
+                          : parameter.unit == "1" ? "–"
+                                                  : parameter.unit});
+  }
+  return table;
+}
+
 Table ranking_table(const LawResult& result) {
-  Table table;
-  table.graded = true;
-  table.header = {plain("Law"), plain("Coefficients"), plain("AICc"), plain("Stable")};
+  Table table{heads({"Law", "Coefficients", "AICc", "Stable"}), true};
   for (const LawTestEntry& test : result.taken().tests)
-    table.header.push_back(plain(test.name + (test.use == "fit" ? "" : "*")));
+    table.header.emplace_back(test.name + (test.use == "fit" ? "" : "*"));
   const double least = result.file.laws.front().aicc;
   for (const LawEntry& law : result.file.laws) {
     if (!law.failure.empty()) continue;
-    std::vector<Cell> row = {plain(law.law, law.law != result.file.recommended ? ""
-                                            : result.file.failed.empty()       ? "taken"
-                                                                               : "not accepted"),
-                             plain(count(double(law.parameters.size()))),
-                             plain(number(law.aicc - least)), plain(stability(law))};
-    for (const LawTestEntry& test : law.tests)
-      row.push_back({percent_magnitude(test.rms_relative), "", grade(test.rms_relative)});
+    std::vector<Cell> row = {{law.law, law.law != result.file.recommended ? ""
+                                       : result.file.failed.empty()       ? "taken"
+                                                                          : "not accepted"},
+                             count(double(law.parameters.size())),
+                             number(law.aicc - least),
+                             stability(law)};
+    for (const LawTestEntry& test : law.tests) row.push_back(magnitude_cell(test.rms_relative));
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
 Table squares_table(const std::vector<LawResult>& results) {
-  Table table;
-  table.graded = true;
-  table.header = {plain("Law")};
+  Table table{{"Law"}, true};
   std::map<std::string, std::vector<Cell>> rows;
   const auto add = [&](const LawResult& result, const LawTestEntry& test) {
     const std::size_t column = table.header.size();
@@ -196,16 +166,16 @@ Table squares_table(const std::vector<LawResult>& results) {
       for (const LawTestEntry& own : law.tests) {
         if (own.name != test.name || own.use != test.use || !std::isfinite(own.published)) continue;
         const double ratio = own.sum_of_squares / own.published;
-        rows[law.law].resize(column, plain("–"));
-        rows[law.law].push_back({number(ratio), "", grade(ratio - 1.0)});
-        table.header.resize(column + 1, plain(test.name));
+        rows[law.law].resize(column, "–");
+        rows[law.law].emplace_back(number(ratio), "", grade(ratio - 1.0));
+        table.header.resize(column + 1, test.name);
       }
   };
   for (const LawResult& result : results)
     for (const LawTestEntry& test : result.taken().tests) add(result, test);
   for (auto& [law, row] : rows) {
-    row.front() = plain(law);
-    row.resize(table.header.size(), plain("–"));
+    row.front() = law;
+    row.resize(table.header.size(), "–");
     table.rows.push_back(std::move(row));
   }
   return table;

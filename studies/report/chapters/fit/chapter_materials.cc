@@ -29,43 +29,31 @@ const LawEntry* law_of(const LawResult& result, const std::string& law) {
 /// Adds the test's points, unless they are drawn already, and the law's line.
 void add_test(const LawResult& result, const std::string& law, const LawTestEntry& test,
               std::size_t place, Panel& panel) {
-  const auto series = [&](std::size_t most, double LawDataRow::*stress) {
-    Series made;
-    for (const LawDataRow& row : law_rows(result, law, test, most)) {
-      made.x.push_back(row.deformation);
-      made.y.push_back(shown_units().stress(row.*stress));
-    }
-    return made;
+  const auto series = [&](const std::string& label, const std::string& key, const Style& style,
+                          std::size_t most, double LawDataRow::*stress) {
+    return curve(label, key, style, law_rows(result, law, test, most), &LawDataRow::deformation,
+                 in(shown_units().stress, stress));
   };
   const bool fitted = test.use == "fit";
-  Series dots = series(most_dots, &LawDataRow::measured);
-  dots.key = test.name + ", measured";
-  dots.style = numbered_style(place);
-  dots.style.line = false;
-  dots.style.point = 6;
+  Style style = numbered_style(place);
+  const Series dots =
+      series("", test.name + ", measured", style.as_points(6), most_dots, &LawDataRow::measured);
   const bool drawn = std::ranges::any_of(
       panel.series, [&](const Series& other) { return other.x == dots.x && other.y == dots.y; });
-  if (!drawn) panel.series.push_back(std::move(dots));
-  Series line = series(most_line_points, &LawDataRow::computed);
-  line.label = test.name + (fitted ? "" : ", predicted");
-  line.style = numbered_style(place);
-  line.style.point = 0;
-  line.style.dash = fitted ? "" : "(7,4)";
-  panel.series.push_back(std::move(line));
+  if (!drawn) panel.series.push_back(dots);
+  style.dash = fitted ? "" : "(7,4)";
+  panel.series.push_back(series(test.name + (fitted ? "" : ", predicted"), "", style.as_line(),
+                                most_line_points, &LawDataRow::computed));
 }
 
 /// A law that runs away beyond its tests must not hide them.
 Range range_of_dots(const Panel& panel) {
-  double least = 0.0, most = 0.0;
-  for (const Series& series : panel.series) {
-    if (series.style.line) continue;
-    for (const double y : series.y) {
-      least = std::min(least, y);
-      most = std::max(most, y);
-    }
-  }
-  const double room = 0.12 * (most - least);
-  return {least < 0.0 ? least - room : 0.0, most > 0.0 ? most + room : 0.0};
+  Range range{0.0, 0.0};
+  for (const Series& series : panel.series)
+    if (!series.style.line)
+      for (const double y : series.y) range.include(y);
+  const double room = 0.12 * (range.to - range.from);
+  return {range.from < 0.0 ? range.from - room : 0.0, range.to > 0.0 ? range.to + room : 0.0};
 }
 
 /// A fit and the law that runs name, with every test fitted and those that they ask of.
@@ -111,21 +99,17 @@ Figure materials_figure(const MaterialsData& data) {
 }
 
 Table run_table(const MaterialsData& data) {
-  Table table;
-  table.graded = true;
-  table.header = {plain("Fit"),
-                  plain("Error", "of what was fitted"),
-                  plain("Error", "of what was predicted"),
-                  plain("Within", "of what was predicted"),
-                  plain("Sums of squares", "over those published"),
-                  plain("Measured / law", "at the end")};
-  const auto error = [](double value) { return Cell{percent_magnitude(value), "", grade(value)}; };
+  Table table{heads({"Fit", "Error\nof what was fitted", "Error\nof what was predicted",
+                     "Within\nof what was predicted", "Sums of squares\nover those published",
+                     "Measured / law\nat the end"}),
+              true};
   for (const MaterialRunEntry& run : data.runs)
-    table.rows.push_back(
-        {plain(run_label(run), run.law + (run.test.empty() ? "" : ", " + run.test)),
-         error(run.fit_error), error(run.predicted_error),
-         plain(percent_magnitude(1.0 - run.outside)), error(run.squares_error),
-         plain(number(run.end_ratio, 3))});
+    table.rows.push_back({{run_label(run), run.law + (run.test.empty() ? "" : ", " + run.test)},
+                          magnitude_cell(run.fit_error),
+                          magnitude_cell(run.predicted_error),
+                          percent_magnitude(1.0 - run.outside),
+                          magnitude_cell(run.squares_error),
+                          number(run.end_ratio, 3)});
   return table;
 }
 
@@ -176,37 +160,18 @@ Chapter materials_chapter(const MaterialsData& data) {
 }
 
 std::string materials_answer(const MaterialsData& data) {
-  const MaterialRunEntry *best = nullptr, *worst = nullptr;
-  for (const MaterialRunEntry& run : data.runs) {
-    if (!std::isfinite(run.predicted_error)) continue;
-    if (best == nullptr || run.predicted_error < best->predicted_error) best = &run;
-    if (worst == nullptr || run.predicted_error > worst->predicted_error) worst = &run;
-  }
+  const MaterialRunEntry* worst = largest_in(data.runs, &MaterialRunEntry::predicted_error);
+  const MaterialRunEntry* best =
+      largest_in(data.runs, [](const MaterialRunEntry& run) { return -run.predicted_error; });
+  const bool several = worst != best;
   Words words;
   words["fits"] = std::to_string(data.fits.size());
   words["one"] = data.fits.size() == 1;
-  words["best"] = best == nullptr ? "" : run_label(*best);
-  words["best_error"] = best == nullptr ? "" : percent_magnitude(best->predicted_error);
-  words["worst"] = worst == best ? "" : run_label(*worst);
-  words["worst_error"] = worst == best ? "" : percent_magnitude(worst->predicted_error);
+  words["best"] = best ? run_label(*best) : "";
+  words["best_error"] = best ? percent_magnitude(best->predicted_error) : "";
+  words["worst"] = several ? run_label(*worst) : "";
+  words["worst_error"] = several ? percent_magnitude(worst->predicted_error) : "";
   return sentences("answer_materials", words);
-}
-
-std::string materials_text(const MaterialsData& data) {
-  std::string text = fmt::format("{:<52}{:>9}{:>11}{:>9}{:>9}{:>11}\n", "law", "fitted",
-                                 "predicted", "outside", "squares", "end ratio");
-  const auto share = [](double value) {
-    return std::isfinite(value) ? fmt::format("{:.3g} %", 100.0 * value) : std::string("-");
-  };
-  for (const MaterialRunEntry& run : data.runs)
-    text += fmt::format(
-        "{:<52}{:>9}{:>11}{:>9}{:>9}{:>11}\n", run_label(run).substr(0, 51), share(run.fit_error),
-        share(run.predicted_error), share(run.outside), share(run.squares_error),
-        std::isfinite(run.end_ratio) ? fmt::format("{:.3g}", run.end_ratio) : std::string("-"));
-  return text +
-         "errors over the stress's root mean square; outside: share of points outside the 95 % "
-         "interval;\nsquares: error of sums of squares against those published; end ratio: "
-         "measured over predicted\n";
 }
 
 }  // namespace fingertip::studies::report::inline chapters::inline fit

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <map>
+#include <utility>
 
 #include "studies/report/chapters/fit/calibration_chapters.h"
 #include "studies/report/chapters/fit/calibration_figures.h"
@@ -18,68 +19,60 @@ using calibration::Repeats;
 using calibration::RigEntry;
 using calibration::ScoreTest;
 
+/// A number where it has no unit.
+std::string amount_of(double value, const std::string& unit, int digits = 4) {
+  return unit.empty() || unit == "1" ? number(value, digits) : amount(value, unit);
+}
+
 /// With its sign where it is negative: a force that rises in a hold.
 std::string share_words(double share) {
   return share < 0.0 ? percent(share) : percent_magnitude(share);
 }
 
-/// A way back above the loading is the machine's.
-Cell loop_cell(const LoadingHistory& course) {
-  return plain(share_words(course.loop),
-               course.play > 0.0 ? "play or lag, " + amount(course.play, "m") : "");
-}
-
 /// Root mean square of measured less fitted.
 double misfit_of(const FitCurve& curve) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < curve.x.size(); ++i)
-    sum += std::pow(curve.measured[i] - curve.fitted[i], 2);
-  return curve.x.empty() ? meshes::unknown : std::sqrt(sum / double(curve.x.size()));
+  for (const auto& row : curve.rows) sum += std::pow(row.measured - row.fitted, 2);
+  return curve.rows.empty() ? meshes::unknown : std::sqrt(sum / double(curve.rows.size()));
+}
+
+bool any_course(const Fit& fit) {
+  return std::ranges::any_of(fit.curves,
+                             [](const FitCurve& curve) { return curve.entry.course.has_value(); });
 }
 
 Table file_table(const Fit& fit) {
-  Table table;
-  const bool any =
-      std::ranges::any_of(fit.curves, [](const FitCurve& c) { return c.course.has_value(); });
-  if (!any) return table;
-  table.header = {plain("File"),   plain("Rows"), plain("Points", "fitted"), plain("Noise"),
-                  plain("Misfit"), plain("Loop"), plain("Relaxation")};
+  if (!any_course(fit)) return {};
+  Table table{heads({"File", "Rows", "Points\nfitted", "Noise", "Misfit", "Loop", "Relaxation"})};
   for (const FitCurve& curve : fit.curves) {
-    const LoadingHistory course = curve.course.value_or(LoadingHistory());
-    const std::string unit = curve.y_quantity.si_unit;
+    const LoadingHistory course = curve.entry.course.value_or(LoadingHistory());
+    const std::string& unit = curve.y_quantity.si_unit;
     const double misfit = misfit_of(curve), noise = course.noise_of_value(), ratio = misfit / noise;
-    const auto shown = [&](double value) {
-      return std::isfinite(value) ? amount(value, unit) : std::string("–");
-    };
     const bool timed = course.hold_time > 0.0;
-    table.rows.push_back(
-        {plain(curve.name, curve.condition), plain(count(double(course.rows))),
-         plain(count(double(curve.x.size()))), plain(shown(noise)),
-         plain(shown(misfit), std::isfinite(ratio) ? number(ratio, 2) + " × noise" : ""),
-         loop_cell(course),
-         plain(share_words(course.relaxation),
-               timed ? "in " + number(course.hold_time, 3) + gap + "s" : "")});
+    // A way back above the loading is the machine's.
+    table.rows.push_back({{curve.name, curve.condition},
+                          count(double(course.rows)),
+                          count(double(curve.rows.size())),
+                          amount(noise, unit),
+                          {amount(misfit, unit), if_known(ratio, number(ratio, 2) + " × noise")},
+                          {share_words(course.loop),
+                           course.play > 0.0 ? "play or lag, " + amount(course.play, "m") : ""},
+                          {share_words(course.relaxation),
+                           timed ? "in " + number(course.hold_time, 3) + gap + "s" : ""}});
   }
   return table;
 }
 
 Table repeat_table(const Fit& fit) {
-  Table table;
+  Table table{heads({"Repeat", "Force\nover the fit's", "Standard error"})};
   for (const Repeats& group : fit.file.repeats)
     for (std::size_t i = 0; i < std::min(group.curves.size(), group.factors.size()); ++i) {
       const double error =
           i < group.factor_errors.size() ? group.factor_errors[i] : meshes::unknown;
-      table.rows.push_back({plain(group.curves[i]), plain(number(group.factors[i])),
-                            plain(if_known(error, "± " + number(error, 2)))});
+      table.rows.push_back(
+          {group.curves[i], number(group.factors[i]), if_known(error, "± " + number(error, 2))});
     }
-  if (!table.rows.empty())
-    table.header = {plain("Repeat"), plain("Force", "over the fit's"), plain("Standard error")};
   return table;
-}
-
-std::vector<double> in_unit(std::vector<double> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
 }
 
 Figure scatter_figure(const Repeats& group, const std::string& name) {
@@ -87,61 +80,47 @@ Figure scatter_figure(const Repeats& group, const std::string& name) {
   const std::size_t points = group.travel.size();
   if (points == 0 || group.mean.size() != points || group.scatter.size() != points) return figure;
   const ShownUnit &length = shown_units().length, &force = shown_units().force;
-  Panel mean, scatter;
-  mean.x_label = scatter.x_label = length.label("travel since touch");
-  mean.y_label = force.label("force");
-  scatter.y_label = force.label("deviation");
-  Series band{"± one deviation", "band", {}, {}, {}, {"#0072B2", "", 1.0, 0, true}};
+  const auto line = [&](const char* label, const char* key, const Style& style,
+                        const std::vector<double>& values) {
+    Series series{label, key, style};
+    for (std::size_t i = 0; i < points; ++i) series.add(length(group.travel[i]), force(values[i]));
+    return series;
+  };
+  Series band{"± one deviation", "band", {"#0072B2", "", 1.0}};
   band.filled = true;
-  for (std::size_t i = 0; i < points; ++i) {
-    band.x.push_back(length(group.travel[i]));
-    band.y.push_back(force(group.mean[i] + group.scatter[i]));
-  }
-  for (std::size_t i = points; i-- > 0;) {
-    band.x.push_back(length(group.travel[i]));
-    band.y.push_back(force(group.mean[i] - group.scatter[i]));
-  }
-  const std::vector<double> x = in_unit(group.travel, length.factor);
-  mean.series = {band,
-                 {"mean of the repeats",
-                  "mean",
-                  x,
-                  in_unit(group.mean, force.factor),
-                  {},
-                  {"#0072B2", "", 1.6, 0, true}}};
-  scatter.series = {{"between repeats",
-                     "scatter",
-                     x,
-                     in_unit(group.scatter, force.factor),
-                     {},
-                     {"#D55E00", "", 1.6, 0, true}}};
+  for (std::size_t i = 0; i < points; ++i)
+    band.add(length(group.travel[i]), force(group.mean[i] + group.scatter[i]));
+  for (std::size_t i = points; i-- > 0;)
+    band.add(length(group.travel[i]), force(group.mean[i] - group.scatter[i]));
+  Panel mean{
+      .x_label = length.label("travel since touch"),
+      .y_label = force.label("force"),
+      .series = {band, line("mean of the repeats", "mean", {"#0072B2", "", 1.6}, group.mean)}};
+  Panel scatter{
+      .x_label = mean.x_label,
+      .y_label = force.label("deviation"),
+      .series = {line("between repeats", "scatter", {"#D55E00", "", 1.6}, group.scatter)}};
   if (group.noise.size() == points && std::isfinite(group.noise.front()))
-    scatter.series.push_back({"noise of a row",
-                              "noise",
-                              x,
-                              in_unit(group.noise, force.factor),
-                              {},
-                              {"#555555", "(6,4)", 1.4, 0, true}});
+    scatter.series.push_back(
+        line("noise of a row", "noise", {"#555555", "(6,4)", 1.4}, group.noise));
   figure.panels = {mean, scatter};
   return figure;
 }
 
 /// Force over time in the longest hold of every file that has one.
 Figure hold_figure(const Fit& fit, const std::string& name) {
-  Figure figure{name, 760, 400, 1, {}};
-  Panel panel;
-  panel.x_label = "time since the end of the loading [s]";
-  panel.key = "top right";
+  const ShownUnit& force = shown_units().force;
+  Panel panel{.x_label = "time since the end of the loading [s]",
+              .y_label = force.label("force"),
+              .key = "top right"};
   for (const FitCurve& curve : fit.curves) {
-    if (!curve.course || curve.course->held_time.empty()) continue;
-    panel.y_label = shown_units().force.label("force");
-    panel.series.push_back({curve.name,
-                            curve.name,
-                            curve.course->held_time,
-                            in_unit(curve.course->held_y, shown_units().force.factor),
-                            {},
-                            numbered_style(panel.series.size())});
+    if (!curve.entry.course || curve.entry.course->held_time.empty()) continue;
+    Series series{curve.name, curve.name, numbered_style(panel.series.size()),
+                  curve.entry.course->held_time};
+    for (const double value : curve.entry.course->held_y) series.y.push_back(force(value));
+    panel.series.push_back(std::move(series));
   }
+  Figure figure{name, 760, 400, 1, {}};
   if (!panel.series.empty()) figure.panels = {panel};
   return figure;
 }
@@ -182,86 +161,41 @@ bool is_assumed(const RigEntry& entry) {
   return !entry.fitted && entry.given == false;
 }
 
-/// Where the value of a quantity is from; runs of earlier versions do not tell who held it.
+/// Where the value of a quantity is from.
 Cell origin_cell(const RigEntry& entry) {
-  if (entry.fitted) return plain("fitted");
-  if (!entry.given) return plain("held");
-  return *entry.given ? plain("given") : plain("assumed", "default, not measured");
-}
-
-/// A quantity of a machine, per file or machine.
-void add_rig_rows(Table& table, const char* title, const std::string& unit,
-                  const std::vector<RigEntry>& entries) {
-  for (const RigEntry& entry : entries) {
-    const auto shown = [&](double value) {
-      return std::isfinite(value) ? amount(value, unit) : std::string("–");
-    };
-    table.rows.push_back(
-        {plain(title, entry.of), plain(shown(entry.value)),
-         plain(entry.fitted ? shown(entry.lower) + " … " + shown(entry.upper) : "–"),
-         origin_cell(entry)});
-  }
+  if (entry.fitted) return "fitted";
+  if (!entry.given) return "held";
+  return *entry.given ? Cell("given") : Cell("assumed", "default, not measured");
 }
 
 Table rig_table(const Fit& fit) {
-  Table table;
-  if (!fit.file.rig) return table;
-  const calibration::RigFile& rig = *fit.file.rig;
-  table.header = {plain("Quantity", "file or machine"), plain("Value"), plain("95 % interval"),
-                  plain("")};
-  add_rig_rows(table, "Travel at touch", "m", rig.touch_offset);
-  add_rig_rows(table, "Compliance", "m/N", rig.compliance);
-  add_rig_rows(table, "Zero of the load cell", "N", rig.force_offset);
-  add_rig_rows(table, "Its drift", "N/s", rig.drift);
+  if (!fit.file.rig) return {};
+  Table table{heads({"Quantity\nfile or machine", "Value", "95 % interval", ""})};
+  const auto add = [&](const char* title, const char* unit, const std::vector<RigEntry>& entries) {
+    for (const RigEntry& entry : entries)
+      table.rows.push_back(
+          {{title, entry.of},
+           amount(entry.value, unit),
+           entry.fitted ? amount(entry.lower, unit) + " … " + amount(entry.upper, unit) : "–",
+           origin_cell(entry)});
+  };
+  add("Travel at touch", "m", fit.file.rig->touch_offset);
+  add("Compliance", "m/N", fit.file.rig->compliance);
+  add("Zero of the load cell", "N", fit.file.rig->force_offset);
+  add("Its drift", "N/s", fit.file.rig->drift);
   return table;
 }
 
 Table suspect_table(const Fit& fit) {
-  Table table;
-  if (fit.file.lack_of_fit.empty()) return table;
-  table.header = {plain("Suspect"), plain("Chi-square", "would fall by"), plain("Probability"),
-                  plain("It would be"), plain("Usual cause and remedy")};
+  Table table{heads({"Suspect", "Chi-square\nwould fall by", "Probability", "It would be",
+                     "Usual cause and remedy"})};
   table.header.back().words = true;
-  for (const ScoreTest& each : fit.file.lack_of_fit) {
-    Cell cause = plain(each.cause);
-    cause.words = true;
-    const std::string unit = each.unit == "1" ? "" : each.unit;
-    table.rows.push_back({plain(each.name, each.of), plain(number(each.decrease, 3)),
-                          plain(number(each.probability, 2)),
-                          plain(unit.empty() ? number(each.amount, 3) : amount(each.amount, unit)),
-                          cause});
-  }
-  return table;
-}
-
-/// What further presses would tell, the best one first.
-Table next_table(const Fit& fit) {
-  Table table;
-  if (fit.file.next.empty()) return table;
-  table.header = {plain("Further press"), plain("Parameter"), plain("95 % interval then"),
-                  plain("Narrower", "times")};
-  for (const calibration::NextEntry& further : fit.file.next) {
-    if (!further.failure.empty()) {
-      Cell failure = plain(further.failure);
-      failure.words = true;
-      table.rows.push_back(
-          {plain(further.name, as_shown(further.press)), plain("–"), failure, plain("–")});
-    }
-    for (const calibration::NarrowedEntry& each : further.parameters) {
-      std::string unit;
-      for (const auto& parameter : fit.file.parameters)
-        if (parameter.name == each.name) unit = parameter.unit;
-      const auto shown = [&](double value) {
-        if (!std::isfinite(value)) return std::string("–");
-        return unit.empty() || unit == "1" ? number(value) : amount(value, unit);
-      };
-      table.rows.push_back({&each == &further.parameters.front()
-                                ? plain(further.name, as_shown(further.press))
-                                : plain(""),
-                            plain(each.name), plain(shown(each.lower) + " … " + shown(each.upper)),
-                            plain(number(each.times, 3))});
-    }
-  }
+  for (const ScoreTest& each : fit.file.lack_of_fit)
+    table.rows.push_back({{each.name, each.of},
+                          number(each.decrease, 3),
+                          number(each.probability, 2),
+                          amount_of(each.amount, each.unit, 3),
+                          prose(each.cause)});
   return table;
 }
 
@@ -270,6 +204,7 @@ Chapter rig_chapter(const Fit& fit, const std::string& prefix) {
   const auto& suspects = fit.file.lack_of_fit;
   ChapterData chapter("fit_rig");
   chapter.id = prefix + "-machine";
+  if (!fit.file.rig && suspects.empty() && fit.file.next.empty()) return {chapter.id, "", {}};
   chapter["name"] = fit.name;
   chapter["soft"] = fit.file.rig.has_value();
   chapter["assumed"] = fit.file.rig && std::ranges::any_of(fit.file.rig->compliance, is_assumed);
@@ -277,23 +212,35 @@ Chapter rig_chapter(const Fit& fit, const std::string& prefix) {
       suspects, [](const ScoreTest& each) { return each.probability < improbable; });
   chapter.tables["rig"] = rig_table(fit);
   chapter.tables["suspects"] = suspect_table(fit);
-  chapter.tables["next"] = next_table(fit);
-  if (!fit.file.rig && suspects.empty() && fit.file.next.empty()) {
-    Chapter none;
-    none.id = chapter.id;
-    return none;
-  }
+  std::map<std::string, std::string> units;
+  for (const auto& parameter : fit.file.parameters) units[parameter.name] = parameter.unit;
+  chapter.tables["next"] = next_table(fit.file.next, units);
   return written(std::move(chapter));
 }
 
 }  // namespace
 
+Table next_table(const std::vector<calibration::NextEntry>& next,
+                 const std::map<std::string, std::string>& units) {
+  Table table{heads({"Further press", "Parameter", "95 % interval then", "Narrower\ntimes"})};
+  for (const calibration::NextEntry& further : next) {
+    Cell name{further.name, as_shown(further.press)};
+    if (!further.failure.empty()) table.rows.push_back({name, "–", prose(further.failure), "–"});
+    for (const calibration::NarrowedEntry& each : further.parameters) {
+      const auto own = units.find(each.name);
+      const std::string unit = own == units.end() ? "" : own->second;
+      table.rows.push_back({std::exchange(name, Cell()), each.name,
+                            amount_of(each.lower, unit) + " … " + amount_of(each.upper, unit),
+                            number(each.times, 3)});
+    }
+  }
+  return table;
+}
+
 std::vector<Chapter> measured_chapters(const Fit& fit, const std::string& prefix) {
-  const bool told =
-      !fit.file.repeats.empty() ||
-      std::ranges::any_of(fit.curves, [](const FitCurve& c) { return c.course.has_value(); });
   std::vector<Chapter> chapters;
-  if (told) chapters.push_back(measured_chapter(fit, prefix));
+  if (!fit.file.repeats.empty() || any_course(fit))
+    chapters.push_back(measured_chapter(fit, prefix));
   chapters.push_back(rig_chapter(fit, prefix));
   return chapters;
 }

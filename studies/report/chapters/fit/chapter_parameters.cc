@@ -17,7 +17,7 @@ using calibration::DirectionEntry, calibration::MinimumEntry;
 
 /// "40.1 kPa"; in the paper's units SI is the note.
 std::string shown(const FitParameter& parameter, double value) {
-  const std::string unit = parameter.unit.empty() ? "" : gap + parameter.unit;
+  const std::string unit = parameter.shown_unit.empty() ? "" : gap + parameter.shown_unit;
   return std::isfinite(value) ? number(parameter.factor * value) + unit : "–";
 }
 
@@ -46,98 +46,81 @@ std::string interval(const FitParameter& parameter, double factor) {
   return number(factor * parameter.lower) + " … " + number(factor * parameter.upper);
 }
 
-/// A column that is there when some parameter has something to put into it.
-struct ParameterColumn {
-  const char *title, *note;
-  bool (*there)(const FitParameter&);
-  Cell (*cell)(const FitParameter&);
-};
-
 Cell value_cell(const FitParameter& parameter, double value) {
-  return plain(std::isfinite(value) ? number(parameter.factor * value) : "–",
-               in_si(parameter, value));
+  return {number(parameter.factor * value), in_si(parameter, value)};
 }
 
 Cell interval_cell(const FitParameter& parameter) {
-  if (parameter.at_bound)
-    return plain(interval(parameter, parameter.factor), parameter.bounded + " at its bound");
-  if (is_open(parameter)) return plain(interval(parameter, parameter.factor));
+  const std::string text = interval(parameter, parameter.factor);
+  if (parameter.at_bound) return {text, parameter.bounded + " at its bound"};
+  if (is_open(parameter)) return text;
   const std::string lower = in_si(parameter, parameter.lower),
                     upper = in_si(parameter, parameter.upper);
-  return plain(interval(parameter, parameter.factor),
-               lower.empty() || upper.empty() ? "" : lower + " … " + upper);
+  return {text, lower.empty() || upper.empty() ? "" : lower + " … " + upper};
 }
 
 Cell prior_cell(const FitParameter& parameter) {
-  if (!std::isfinite(parameter.prior_mean)) return plain("none");
-  return plain(number(parameter.factor * parameter.prior_mean) + " ± " +
-                   number(parameter.factor * parameter.prior_deviation, 3),
-               in_si(parameter, parameter.prior_mean));
+  if (!parameter.prior) return "none";
+  return {number(parameter.factor * parameter.prior->mean) + " ± " +
+              number(parameter.factor * parameter.prior->deviation, 3),
+          in_si(parameter, parameter.prior->mean)};
 }
 
-constexpr ParameterColumn parameter_columns[] = {
-    {"Estimate", "", [](const FitParameter&) { return true; },
-     [](const FitParameter& parameter) { return value_cell(parameter, parameter.estimate); }},
-    {"95 % interval", "", [](const FitParameter&) { return true; }, interval_cell},
-    {"Standard error", "of the estimate",
-     [](const FitParameter& parameter) { return std::isfinite(parameter.standard_error); },
-     [](const FitParameter& parameter) { return plain(standard_error(parameter)); }},
-    {"Truth", "", [](const FitParameter& parameter) { return std::isfinite(parameter.truth); },
-     [](const FitParameter& parameter) {
-       const double error = parameter.estimate / parameter.truth - 1.0;
-       Cell cell = value_cell(parameter, parameter.truth);
-       if (!std::isfinite(error)) return cell;
-       cell.note +=
-           (cell.note.empty() ? "" : ", ") + std::string("missed by ") + percent_magnitude(error);
-       cell.grade = grade(error);
-       return cell;
-     }},
-    {"Start", "", [](const FitParameter& parameter) { return std::isfinite(parameter.start); },
-     [](const FitParameter& parameter) { return value_cell(parameter, parameter.start); }},
-    {"Prior", "mean ± deviation",
-     [](const FitParameter& parameter) { return std::isfinite(parameter.prior_mean); }, prior_cell},
-    {"Bias", "of a model error",
-     [](const FitParameter& parameter) { return std::isfinite(parameter.bias); },
-     [](const FitParameter& parameter) {
-       Cell cell = value_cell(parameter, parameter.bias);
-       cell.note = if_known(parameter.bias, percent(parameter.bias / parameter.estimate));
-       return cell;
-     }},
-};
+Cell truth_cell(const FitParameter& parameter) {
+  const double error = parameter.estimate / parameter.truth - 1.0;
+  Cell cell = value_cell(parameter, parameter.truth);
+  if (!std::isfinite(error)) return cell;
+  cell.note +=
+      (cell.note.empty() ? "" : ", ") + std::string("missed by ") + percent_magnitude(error);
+  cell.grade = grade(error);
+  return cell;
+}
 
-bool any_parameter(const Fit& fit, bool (*there)(const FitParameter&)) {
-  return std::ranges::any_of(fit.parameters, there);
+Cell bias_cell(const FitParameter& parameter) {
+  return {number(parameter.factor * parameter.bias),
+          if_known(parameter.bias, percent(parameter.bias / parameter.estimate))};
+}
+
+bool any_known(const Fit& fit, double FitParameter::*value) {
+  return std::ranges::any_of(fit.parameters, [&](const FitParameter& parameter) {
+    return std::isfinite(parameter.*value);
+  });
 }
 
 Table parameter_table(const Fit& fit) {
-  Table table;
-  table.graded = any_parameter(
-      fit, [](const FitParameter& parameter) { return std::isfinite(parameter.truth); });
-  table.header = {plain("Parameter")};
-  for (const ParameterColumn& column : parameter_columns)
-    if (any_parameter(fit, column.there)) table.header.push_back(plain(column.title, column.note));
-  for (const FitParameter& parameter : fit.parameters) {
-    const std::string unit = parameter.unit.empty() ? "1" : parameter.unit;
-    std::vector<Cell> row{plain(parameter.symbol + " [" + unit + "]", parameter.name)};
-    for (const ParameterColumn& column : parameter_columns)
-      if (any_parameter(fit, column.there)) row.push_back(column.cell(parameter));
-    table.rows.push_back(std::move(row));
-  }
+  Table table{heads({"Parameter", "Estimate", "95 % interval", "Standard error\nof the estimate",
+                     "Truth", "Start", "Prior\nmean ± deviation", "Bias\nof a model error"}),
+              any_known(fit, &FitParameter::truth)};
+  for (const FitParameter& p : fit.parameters)
+    table.rows.push_back(
+        {{p.symbol + " [" + (p.shown_unit.empty() ? "1" : p.shown_unit) + "]", p.name},
+         value_cell(p, p.estimate),
+         interval_cell(p),
+         standard_error(p),
+         truth_cell(p),
+         value_cell(p, p.start),
+         prior_cell(p),
+         bias_cell(p)});
+  if (!any_known(fit, &FitParameter::bias)) table.drop_column(7);
+  if (std::ranges::none_of(fit.parameters, [](const auto& p) { return p.prior.has_value(); }))
+    table.drop_column(6);
+  if (!any_known(fit, &FitParameter::start)) table.drop_column(5);
+  if (!any_known(fit, &FitParameter::truth)) table.drop_column(4);
+  if (!any_known(fit, &FitParameter::standard_error)) table.drop_column(3);
   return table;
 }
 
 /// Without rows for a single parameter.
 Table correlation_table(const Fit& fit) {
   const std::vector<std::vector<double>> correlation = fit.square(fit.file.correlation);
-  Table table;
-  if (correlation.size() < 2) return table;
-  table.header = {plain("Correlation")};
-  for (const FitParameter& parameter : fit.parameters)
-    table.header.push_back(plain(parameter.symbol));
-  for (std::size_t i = 0; i < correlation.size(); ++i) {
-    std::vector<Cell> row{plain(fit.parameters[i].symbol)};
-    for (const double value : correlation[i]) row.push_back(plain(number(value, 3)));
-    table.rows.push_back(std::move(row));
+  if (correlation.size() < 2) return {};
+  Table table{{"Correlation"}};
+  for (const FitParameter& parameter : fit.parameters) {
+    table.header.emplace_back(parameter.symbol);
+    std::vector<Cell>& row = table.rows.emplace_back();
+    row.emplace_back(parameter.symbol);
+    for (const double value : correlation[table.rows.size() - 1])
+      row.emplace_back(number(value, 3));
   }
   return table;
 }
@@ -167,21 +150,19 @@ bool is_same_minimum(const Fit& fit) {
 
 /// Without rows where there is but one minimum.
 Table minima_table(const Fit& fit) {
-  Table table;
-  if (fit.file.minima.size() < 2 || is_same_minimum(fit)) return table;
-  table.header = {plain("Start")};
+  if (fit.file.minima.size() < 2 || is_same_minimum(fit)) return {};
+  Table table{{"Start"}};
   for (const FitParameter& parameter : fit.parameters)
-    table.header.push_back(plain(parameter.symbol, parameter.unit));
-  table.header.insert(table.header.end(), {plain("Loss"), plain("Iterations")});
+    table.header.emplace_back(parameter.symbol, parameter.shown_unit);
+  table.header.insert(table.header.end(), {"Loss", "Iterations"});
   for (const MinimumEntry& minimum : fit.file.minima) {
     const std::vector<double>& estimates = minimum.estimates;
-    std::vector<Cell> row{plain(std::to_string(table.rows.size() + 1),
-                                &minimum == &least_minimum(fit) ? "reported" : "")};
+    std::vector<Cell> row{
+        {std::to_string(table.rows.size() + 1), &minimum == &least_minimum(fit) ? "reported" : ""}};
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-      row.push_back(plain(number(i < estimates.size() ? fit.parameters[i].factor * estimates[i]
-                                                      : meshes::unknown)));
-    row.push_back(plain(number(minimum.loss)));
-    row.push_back(plain(count(double(minimum.iterations))));
+      row.emplace_back(i < estimates.size() ? number(fit.parameters[i].factor * estimates[i])
+                                            : "–");
+    row.insert(row.end(), {number(minimum.loss), count(double(minimum.iterations))});
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -225,18 +206,14 @@ std::string fall_of_chi_square(const Fit& fit) {
 /// "indentation up to 20 % of the thickness, model central and …"; empty when nothing is told.
 std::string checked_for(const Fit& fit) {
   const calibration::ValidityEntry& validity = fit.file.validity;
-  std::vector<std::string> parts;
-  const auto add = [&](const char* name, const std::string& value) {
-    if (!value.empty() && value != "–") parts.push_back(name + value);
-  };
-  add("indentation up to ",
-      std::isfinite(validity.largest_strain_measure)
-          ? percent_magnitude(validity.largest_strain_measure) + " of the thickness"
-          : "");
-  add("model ", validity.model);
-  add("kinematics ", validity.kinematics);
-  if (std::isfinite(validity.spacing)) add("spacing ", length(validity.spacing));
-  add("Poisson's ratio ", number(validity.poissons_ratio));
+  const double strain = validity.largest_strain_measure, nu = validity.poissons_ratio;
+  std::vector<std::string> parts = {
+      if_known(strain, "indentation up to " + percent_magnitude(strain) + " of the thickness"),
+      validity.model.empty() ? "" : "model " + validity.model,
+      validity.kinematics.empty() ? "" : "kinematics " + validity.kinematics,
+      if_known(validity.spacing, "spacing " + length(validity.spacing)),
+      if_known(nu, "Poisson's ratio " + number(nu))};
+  std::erase(parts, "");
   return enumerate(parts);
 }
 
@@ -247,8 +224,7 @@ Chapter parameter_chapter(const Fit& fit, const std::string& prefix) {
   chapter.id = prefix + "-parameters";
   chapter["name"] = fit.name;
   chapter["starts"] = std::to_string(fit.file.minima.size());
-  chapter["bias"] = any_parameter(
-      fit, [](const FitParameter& parameter) { return std::isfinite(parameter.bias); });
+  chapter["bias"] = any_known(fit, &FitParameter::bias);
   chapter["same_minimum"] = !fit.parameters.empty() && is_same_minimum(fit);
   chapter["checked"] = checked_for(fit);
   if (!fit.parameters.empty()) {

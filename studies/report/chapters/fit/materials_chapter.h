@@ -28,8 +28,7 @@ MaterialsData read_materials(const RunData& run, FolderReader& reader);
 /// Measured and computed stresses of the laws that runs name, what each is measured by, all laws of
 /// each fit; without blocks when there are no runs.
 Chapter materials_chapter(const MaterialsData& data);
-/// The result in one paragraph, and as a table in plain text.
+/// The result in one paragraph.
 std::string materials_answer(const MaterialsData& data);
-std::string materials_text(const MaterialsData& data);
 
 }  // namespace fingertip::studies::report::inline chapters::inline fit

@@ -48,20 +48,19 @@ Linearised linearised(const Fit& fit, std::size_t i, std::size_t j) {
 
 /// Δᵀ C⁻¹ Δ = level around the estimates: Cholesky's factor of C times a circle.
 Series ellipse(const Linearised& fit, double level) {
-  Series series{"95 %, linearised", "ellipse", {}, {}, {}, {"#000000", "(6,4)", 1.3, 0, true}};
+  Series series{"95 %, linearised", "ellipse", {"#000000", "(6,4)", 1.3}};
   const double l11 = std::sqrt(fit.first), l21 = fit.mixed / l11,
                l22 = std::sqrt(fit.second - l21 * l21), radius = std::sqrt(level);
   for (int degree = 0; degree <= 360; degree += 3) {
     const double angle = degree * std::numbers::pi / 180.0;
     const double u = radius * std::cos(angle), v = radius * std::sin(angle);
-    series.x.push_back(fit.x + l11 * u);
-    series.y.push_back(fit.y + l21 * u + l22 * v);
+    series.add(fit.x + l11 * u, fit.y + l21 * u + l22 * v);
   }
   return series;
 }
 
 Series mark_at(const std::string& label, double x, double y, const std::string& colour, int point) {
-  return {label, label, {x}, {y}, {}, {colour, "", 1.0, point, false, 1.1}};
+  return {label, label, {colour, "", 1.0, point, false, 1.1}, {x}, {y}};
 }
 
 GridFunction profile_grid(const calibration::ProfileEntry& profile, const FitParameter& first,
@@ -119,10 +118,10 @@ bool resolved(const GridFunction& grid, const Linearised& fit) {
 
 /// All lines of one level as one curve with breaks.
 Series level_series(const GridFunction& grid, const Level& level) {
-  Series series{level.label, level.label, {}, {}, {}, {level.colour, "", 2.2, 0, true}};
+  Series series{level.label, level.label, {level.colour, "", 2.2}};
   for (const Polyline& line : level_lines(grid, level.increase)) {
-    for (const auto& [x, y] : line) series.x.push_back(x), series.y.push_back(y);
-    series.x.push_back(meshes::unknown), series.y.push_back(meshes::unknown);
+    for (const auto& [x, y] : line) series.add(x, y);
+    series.add(meshes::unknown, meshes::unknown);
   }
   return series;
 }
@@ -131,13 +130,11 @@ Series level_series(const GridFunction& grid, const Level& level) {
 Series nodes_within(const GridFunction& grid, std::size_t k) {
   const double above = k == 0 ? -std::numeric_limits<double>::infinity() : levels[k - 1].increase;
   const std::string label = std::string("within ") + levels[k].label;
-  Series series{label, label, {}, {}, {}, {levels[k].colour, "", 1.0, 5, false, 0.8}};
-  for (std::size_t i = 0; i < grid.x.size(); ++i) {
-    for (std::size_t j = 0; j < grid.y.size(); ++j) {
-      if (!(grid.values[i][j] > above && grid.values[i][j] <= levels[k].increase)) continue;
-      series.x.push_back(grid.x[i]), series.y.push_back(grid.y[j]);
-    }
-  }
+  Series series{label, label, {levels[k].colour, "", 1.0, 5, false, 0.8}};
+  for (std::size_t i = 0; i < grid.x.size(); ++i)
+    for (std::size_t j = 0; j < grid.y.size(); ++j)
+      if (grid.values[i][j] > above && grid.values[i][j] <= levels[k].increase)
+        series.add(grid.x[i], grid.y[j]);
   return series;
 }
 
@@ -148,7 +145,8 @@ Range extent(const std::vector<double>& nodes, double truth) {
 }
 
 std::string axis_label(const FitParameter& parameter) {
-  return parameter.unit.empty() ? parameter.symbol : parameter.symbol + " [" + parameter.unit + "]";
+  return parameter.shown_unit.empty() ? parameter.symbol
+                                      : parameter.symbol + " [" + parameter.shown_unit + "]";
 }
 
 }  // namespace
@@ -161,12 +159,11 @@ Figure profile_figure(const Fit& fit, const std::string& prefix) {
   const FitParameter &first = fit.parameters[i], &second = fit.parameters[j];
   const GridFunction grid = profile_grid(profile, first, second);
   if (!grid.valid()) return figure;
-  Panel panel;
-  panel.x_label = axis_label(first);
-  panel.y_label = axis_label(second);
-  panel.key = "outside right top";
-  panel.x_range = extent(grid.x, first.factor * first.truth);
-  panel.y_range = extent(grid.y, second.factor * second.truth);
+  Panel panel{.x_label = axis_label(first),
+              .y_label = axis_label(second),
+              .x_range = extent(grid.x, first.factor * first.truth),
+              .y_range = extent(grid.y, second.factor * second.truth),
+              .key = "outside right top"};
   const Linearised linear = linearised(fit, i, j);
   if (resolved(grid, linear)) {
     const GridFunction fine = finer(grid, linear, 24);

@@ -21,27 +21,23 @@ std::string seconds(double value) {
   return with_prefix(value, "s");
 }
 
-std::vector<Quantity> size_quantities() {
-  using S = PressSummary;
-  return {{"Spacing", "", [](const S& s) { return length(s.spacing); }},
-          {"Particles", "", [](const S& s) { return count(double(s.census.particles)); }},
-          {"Computed", "of mirror images one",
-           [](const S& s) {
-             return s.census.sectors > 1 ? fmt::format("1/{}", s.census.sectors) : "all";
-           }},
-          {"Expected V/a³", "", [](const S& s) { return count(s.census.expected_particles); }},
-          {"Springs", "", [](const S& s) { return count(double(s.census.springs)); }},
-          {"Cells", "", [](const S& s) { return count(double(s.census.cells)); }},
-          {"Boundary particles", "",
-           [](const S& s) { return count(double(s.census.boundary_particles)); }},
-          {"Ligaments", "", [](const S& s) { return count(double(s.census.ligaments)); }},
-          {"Mass against ρV", "",
-           [](const S& s) { return percent(s.census.mass / s.census.exact_mass - 1.0); }}};
-}
-
-std::vector<Quantity> time_quantities() {
+std::vector<Quantity> lattice_quantities() {
   using S = PressSummary;
   return {
+      {"Spacing", "", [](const S& s) { return length(s.spacing); }},
+      {"Particles", "", [](const S& s) { return count(double(s.census.particles)); }},
+      {"Computed", "of mirror images one",
+       [](const S& s) {
+         return s.census.sectors > 1 ? fmt::format("1/{}", s.census.sectors) : "all";
+       }},
+      {"Expected V/a³", "", [](const S& s) { return count(s.census.expected_particles); }},
+      {"Springs", "", [](const S& s) { return count(double(s.census.springs)); }},
+      {"Cells", "", [](const S& s) { return count(double(s.census.cells)); }},
+      {"Boundary particles", "",
+       [](const S& s) { return count(double(s.census.boundary_particles)); }},
+      {"Ligaments", "", [](const S& s) { return count(double(s.census.ligaments)); }},
+      {"Mass against ρV", "",
+       [](const S& s) { return percent(s.census.mass / s.census.exact_mass - 1.0); }},
       {"ω₀ = √(2k/m)", "the paper's estimate, rad/s",
        [](const S& s) { return number(s.step.omega0, 4); }},
       {"1/ω₀", "the paper's bound", [](const S& s) { return seconds(s.step.paper_bound); }},
@@ -59,38 +55,17 @@ std::vector<Quantity> time_quantities() {
 }
 
 Table lattice_table(const RunData& run) {
-  Table table;
-  table.header = {plain("Lattice")};
+  Table table{{"Lattice"}};
+  for (const Quantity& quantity : lattice_quantities())
+    table.rows.push_back({{quantity.label, quantity.note}});
   for (const ModelData& model : run.models) {
     if (model.summary.empty()) continue;
-    table.header.push_back(plain(model_label(model.name), model.summary.kinematics));
-  }
-  for (const std::vector<Quantity>& group : {size_quantities(), time_quantities()}) {
-    for (const Quantity& quantity : group) {
-      std::vector<Cell> row{plain(quantity.label, quantity.note)};
-      for (const ModelData& model : run.models) {
-        if (!model.summary.empty()) row.push_back(plain(quantity.value(model.summary)));
-      }
-      table.rows.push_back(std::move(row));
-    }
+    table.header.emplace_back(model_label(model.name), model.summary.kinematics);
+    std::size_t row = 0;
+    for (const Quantity& quantity : lattice_quantities())
+      table.rows[row++].push_back(quantity.value(model.summary));
   }
   return table;
-}
-
-/// What a row tells and its value, "" or "–" when summary.json does not have it.
-using MeshRow = std::pair<Cell, std::string>;
-
-std::vector<MeshRow> problem_rows(const fem_reference::RunSummary& summary) {
-  return {{plain("Status"), summary.status},
-          {plain("Contact"), summary.contact},
-          {plain("Strain"), summary.strain + (summary.law.empty() ? "" : ", " + summary.law)},
-          {plain("Polynomial degree"), number(double(summary.degree), 1)},
-          {plain("Volumetric part", "of the energy"), summary.volumetric},
-          {plain("Linear solver"), summary.solver},
-          {plain("Processes"), count(double(summary.ranks))},
-          {plain("Wanted force error"), percent_magnitude(summary.tolerance)},
-          {plain("Wall time", "of all meshes"), seconds(summary.wall_time)},
-          {plain("Peak memory", "of one process"), with_prefix(summary.peak_memory, "B")}};
 }
 
 /// "" of a count that no mesh has.
@@ -98,44 +73,35 @@ std::string some(std::size_t number) {
   return number > 0 ? count(double(number)) : "";
 }
 
-std::vector<MeshRow> mesh_rows(const fem_reference::RunSummary& summary) {
+Table mesh_table(const fem_reference::RunSummary& summary) {
   const meshes::MeshQuality& first = summary.mesh;
-  return {{plain("Cells", "finest mesh"), some(summary.cells)},
-          {plain("Degrees of freedom", "finest mesh"), some(summary.dofs)},
-          {plain("Of these in the contact zone"), some(summary.contact_unknowns)},
-          {plain("Hexahedra", "first mesh"), some(first.hexahedra)},
-          {plain("Smallest scaled Jacobian", "first mesh; 1 for a cube"),
-           number(first.min_scaled_jacobian, 3)},
-          {plain("Smallest Jacobian", "first mesh, m³"), number(first.min_jacobian, 3)},
-          {plain("Volume", "first mesh: straight-sided elements, meshed sector"),
-           std::isfinite(first.volume)
-               ? number(first.volume * std::pow(shown_units().length.factor, 3)) + gap +
-                     unit_name(shown_units().length) + "³"
-               : ""}};
-}
-
-Table mesh_table(const RunData& run) {
-  Table table;
-  table.header = {plain("Continuum"), plain("Value")};
-  for (const std::vector<MeshRow>& rows : {problem_rows(run.continuum), mesh_rows(run.continuum)}) {
-    for (const auto& [label, value] : rows) {
-      // Runs of other programs, modes or versions do not tell everything.
-      if (!value.empty() && value != "–") table.rows.push_back({label, plain(value)});
-    }
-  }
+  const ShownUnit& length = shown_units().length;
+  Table table{heads({"Continuum", "Value"})};
+  table.rows = {{"Status", summary.status},
+                {"Contact", summary.contact},
+                {"Strain", summary.strain + (summary.law.empty() ? "" : ", " + summary.law)},
+                {"Polynomial degree", number(double(summary.degree), 1)},
+                {{"Volumetric part", "of the energy"}, summary.volumetric},
+                {"Linear solver", summary.solver},
+                {"Processes", count(double(summary.ranks))},
+                {"Wanted force error", percent_magnitude(summary.tolerance)},
+                {{"Wall time", "of all meshes"}, seconds(summary.wall_time)},
+                {{"Peak memory", "of one process"}, with_prefix(summary.peak_memory, "B")},
+                {{"Cells", "finest mesh"}, some(summary.cells)},
+                {{"Degrees of freedom", "finest mesh"}, some(summary.dofs)},
+                {"Of these in the contact zone", some(summary.contact_unknowns)},
+                {{"Hexahedra", "first mesh"}, some(first.hexahedra)},
+                {{"Smallest scaled Jacobian", "first mesh; 1 for a cube"},
+                 number(first.min_scaled_jacobian, 3)},
+                {{"Smallest Jacobian", "first mesh, m³"}, number(first.min_jacobian, 3)},
+                {{"Volume", "first mesh: straight-sided elements, meshed sector"},
+                 if_known(first.volume, number(first.volume * std::pow(length.factor, 3)) + gap +
+                                            unit_name(length) + "³")}};
+  // Runs of other programs or modes do not tell everything.
+  std::erase_if(table.rows, [](const std::vector<Cell>& row) {
+    return row[1].text.empty() || row[1].text == "–";
+  });
   return table;
-}
-
-void add_row(Table& table, const std::string& key, const std::string& value) {
-  Cell cell = plain(value);
-  cell.words = true;
-  if (!value.empty()) table.rows.push_back({plain(key), cell});
-}
-
-/// name → value of a JSON object as rows of a table.
-void add_rows(Table& table, const nlohmann::ordered_json& object, const std::string& prefix) {
-  for (const auto& [key, value] : object.items())
-    add_row(table, prefix + key, value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 }  // namespace
@@ -151,23 +117,29 @@ Chapter cost_chapter(const RunData& run) {
     steps.back()["explanation"] = model.summary.step.explanation;
   }
   chapter["steps"] = std::move(steps);
-  if (!run.continuum.empty()) chapter.tables["continuum"] = mesh_table(run);
+  if (!run.continuum.empty()) chapter.tables["continuum"] = mesh_table(run.continuum);
   return written(std::move(chapter));
 }
 
 Chapter provenance_chapter(const RunData& run) {
-  Table table;
-  table.header = {plain("Entry"), plain("Value")};
+  Table table{heads({"Entry", "Value"})};
   table.header.back().words = true;  // as its values are
+  const auto add = [&](const std::string& name, const std::string& value) {
+    if (!value.empty()) table.rows.push_back({name, prose(value)});
+  };
+  const auto add_all = [&](const nlohmann::ordered_json& object, const std::string& prefix) {
+    for (const auto& [key, value] : object.items())
+      add(prefix + key, value.is_string() ? value.get<std::string>() : value.dump());
+  };
   const Manifest& manifest = run.manifest;
-  add_row(table, "version", manifest.version);
-  add_row(table, "source_hash", manifest.source_hash);
-  add_row(table, "input_hash", manifest.input_hash);
-  add_row(table, "command_line", fmt::format("{}", fmt::join(manifest.command_line, " ")));
-  add_row(table, "started", manifest.started);
-  add_row(table, "finished", manifest.finished.value_or(""));
-  add_rows(table, manifest.host, "host: ");
-  add_rows(table, manifest.packages, "");
+  add("version", manifest.version);
+  add("source_hash", manifest.source_hash);
+  add("input_hash", manifest.input_hash);
+  add("command_line", fmt::format("{}", fmt::join(manifest.command_line, " ")));
+  add("started", manifest.started);
+  add("finished", manifest.finished.value_or(""));
+  add_all(manifest.host, "host: ");
+  add_all(manifest.packages, "");
   ChapterData chapter("provenance");
   chapter.tables["manifest"] = std::move(table);
   chapter["verb"] = run.verb;

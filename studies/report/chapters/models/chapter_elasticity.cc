@@ -17,20 +17,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-calibration::ElasticModuli cubic(const Moduli& moduli) {
+calibration::ElasticModuli cubic(const ModuliEntry& moduli) {
   return cubic_material(moduli.E_100, moduli.nu_100, moduli.G);
 }
 
 /// E against direction in the plane of two unit vectors, as a closed curve around the origin.
 template <class Modulus>
-Series polar_series(const std::string& name, const Vector3d& right, const Vector3d& up,
-                    const Modulus& modulus) {
-  Series series{model_label(name), name, {}, {}, {}, model_style(name)};
+Series polar_series(const std::string& label, const std::string& key, const Style& style,
+                    const Vector3d& right, const Vector3d& up, const Modulus& modulus) {
+  Series series{label, key, style};
   for (int degree = 0; degree <= 360; degree += 2) {
     const double angle = degree * std::numbers::pi / 180.0;
     const double E = shown_units().stress(modulus(std::cos(angle) * right + std::sin(angle) * up));
-    series.x.push_back(E * std::cos(angle));
-    series.y.push_back(E * std::sin(angle));
+    series.add(E * std::cos(angle), E * std::sin(angle));
   }
   return series;
 }
@@ -39,31 +38,26 @@ Series polar_series(const std::string& name, const Vector3d& right, const Vector
 void add_spoke(Panel& panel, double degree, double length, const std::string& text) {
   const double x = length * std::cos(degree * std::numbers::pi / 180.0);
   const double y = length * std::sin(degree * std::numbers::pi / 180.0);
-  panel.series.push_back(
-      {"", "direction " + text, {0.0, x}, {0.0, y}, {}, {"#999999", "(2,3)", 0.8, 0, true}});
+  panel.series.push_back({"", "direction " + text, {"#999999", "(2,3)", 0.8}, {0.0, x}, {0.0, y}});
   panel.texts.push_back({1.12 * x, 1.12 * y, text});
 }
 
 Panel polar_panel(const RunData& run, const std::string& title, const Vector3d& right,
                   const Vector3d& up) {
-  Panel panel;
-  panel.title = title;
-  panel.x_label = shown_units().stress.label("E · cos(angle)");
-  panel.y_label = shown_units().stress.label("E · sin(angle)");
-  panel.equal_scales = true;
+  Panel panel{.title = title,
+              .x_label = shown_units().stress.label("E · cos(angle)"),
+              .y_label = shown_units().stress.label("E · sin(angle)"),
+              .equal_scales = true};
   for (const ModelData& model : run.models) {
     if (!std::isfinite(model.moduli.E_100 + model.moduli.nu_100 + model.moduli.G)) continue;
     const calibration::ElasticModuli moduli = cubic(model.moduli);
-    panel.series.push_back(polar_series(model.name, right, up, [&](const Vector3d& direction) {
-      return calibration::youngs_modulus_along(moduli, direction);
-    }));
+    panel.series.push_back(polar_series(
+        model_label(model.name), model.name, model_style(model.name), right, up,
+        [&](const Vector3d& n) { return calibration::youngs_modulus_along(moduli, n); }));
   }
   // Last, to be seen on top of the models that reach it.
-  const double target = run.target.youngs_modulus;
-  panel.series.push_back(
-      polar_series("reference", right, up, [&](const Vector3d&) { return target; }));
-  panel.series.back().label = panel.series.back().key = "target";
-  panel.series.back().style = {"#000000", "(1,3)", 2.0, 0, true};
+  panel.series.push_back(polar_series("target", "target", {"#000000", "(1,3)"}, right, up,
+                                      [&](const Vector3d&) { return run.target.youngs_modulus; }));
   return panel;
 }
 
@@ -105,43 +99,38 @@ Figure surface_figure(const RunData& run) {
 }
 
 Table achieved_table(const RunData& run) {
-  Table table;
-  table.graded = true;
-  table.header = {{"Constant", "", Grade::none}, {"Target", "", Grade::none}};
-  for (const ModelData& model : run.models)
-    table.header.push_back({model_label(model.name), "", Grade::none});
+  Table table{heads({"Constant", "Target"}), true};
+  for (const ModelData& model : run.models) table.header.emplace_back(model_label(model.name));
   struct Row {
     const char* name;
-    double Moduli::*value;
-    double Target::*target;
+    double ModuliEntry::*value;
+    double TargetEntry::*target;
   };
   for (const Row& row :
-       {Row{"E along [100]", &Moduli::E_100, &Target::youngs_modulus},
-        {"E along [110]", &Moduli::E_110, &Target::youngs_modulus},
-        {"E along [111]", &Moduli::E_111, &Target::youngs_modulus},
-        {"Shear modulus G", &Moduli::G, &Target::shear_modulus},
-        {"Poisson's ratio ν along [100]", &Moduli::nu_100, &Target::poissons_ratio},
-        {"Bulk modulus K", &Moduli::K, &Target::bulk_modulus}}) {
-    const bool ratio = row.value == &Moduli::nu_100;
-    const double target = run.target.*row.target;
-    const auto shown = [&](double value) {
-      return ratio ? number(value) : number(shown_units().stress(value));
+       {Row{"E along [100]", &ModuliEntry::E_100, &TargetEntry::youngs_modulus},
+        {"E along [110]", &ModuliEntry::E_110, &TargetEntry::youngs_modulus},
+        {"E along [111]", &ModuliEntry::E_111, &TargetEntry::youngs_modulus},
+        {"Shear modulus G", &ModuliEntry::G, &TargetEntry::shear_modulus},
+        {"Poisson's ratio ν along [100]", &ModuliEntry::nu_100, &TargetEntry::poissons_ratio},
+        {"Bulk modulus K", &ModuliEntry::K, &TargetEntry::bulk_modulus}}) {
+    const bool ratio = row.value == &ModuliEntry::nu_100;
+    const auto cell = [&](double value) {
+      return ratio ? Cell(number(value)) : amount_cell(value, shown_units().stress);
     };
-    std::vector<Cell> cells{{row.name, "", Grade::none},
-                            {shown(target), ratio ? "" : si_note(target, "Pa"), Grade::none}};
+    const double target = run.target.*row.target;
+    std::vector<Cell> cells{row.name, cell(target)};
     for (const ModelData& model : run.models) {
-      const double value = model.moduli.*row.value;
-      const double error = value / target - 1.0;
-      std::string si = ratio ? "" : si_note(value, "Pa");
-      if (!si.empty()) si += ", ";
-      cells.push_back({shown(value), si + percent(error), grade(error)});
+      const double value = model.moduli.*row.value, error = value / target - 1.0;
+      Cell& own = cells.emplace_back(cell(value));
+      own.note += (own.note.empty() ? "" : ", ") + percent(error);
+      own.grade = grade(error);
     }
     table.rows.push_back(std::move(cells));
   }
-  std::vector<Cell> anisotropy{{"Anisotropy A", "", Grade::none}, {"1", "", Grade::none}};
+  std::vector<Cell> anisotropy{"Anisotropy A", "1"};
   for (const ModelData& model : run.models) {
     const double A = cubic(model.moduli).anisotropy;
-    anisotropy.push_back({number(A), percent(A - 1.0), grade(A - 1.0)});
+    anisotropy.emplace_back(number(A), percent(A - 1.0), grade(A - 1.0));
   }
   table.rows.push_back(std::move(anisotropy));
   return table;
@@ -160,14 +149,10 @@ std::string null_directions(const calibration::ModuliFile& calibration) {
 }
 
 Table spring_table(const RunData& run) {
-  Table table;
-  table.header = {{"Model", "", Grade::none},
-                  plain("Spacing", unit_name(shown_units().length)),
-                  {"k1", "axis", Grade::none},
-                  {"k2", "face diagonal", Grade::none},
-                  {"k3", "body diagonal", Grade::none},
-                  {"κ", "volume", Grade::none},
-                  {"Null direction", "(k1, k2, k3, κ)", Grade::none}};
+  const ShownUnits& units = shown_units();
+  Table table{
+      heads({"Model", "Spacing\n" + unit_name(units.length), "k1\naxis", "k2\nface diagonal",
+             "k3\nbody diagonal", "κ\nvolume", "Null direction\n(k1, k2, k3, κ)"})};
   for (const ModelData& model : run.models) {
     const bool fitted = !model.calibration.empty();
     if (!fitted && model.summary.empty()) continue;
@@ -176,14 +161,13 @@ Table spring_table(const RunData& run) {
                                          ? ConstantsEntry{found.k1, found.k2, found.k3, found.kappa}
                                          : model.summary.constants;
     const double spacing = fitted ? model.calibration.spacing : model.summary.spacing;
-    std::vector<Cell> row{
-        {model_label(model.name), fitted ? "fitted" : "rule k = E a²/l₀", Grade::none},
-        {number(shown_units().length(spacing)), "", Grade::none}};
-    for (const double value : {constants.k1, constants.k2, constants.k3})
-      row.push_back({with_unit(value, shown_units().stiffness), "", Grade::none});
-    row.push_back({with_unit(constants.kappa, shown_units().stress), "", Grade::none});
-    row.push_back({null_directions(model.calibration), "", Grade::none});
-    table.rows.push_back(std::move(row));
+    table.rows.push_back({{model_label(model.name), fitted ? "fitted" : "rule k = E a²/l₀"},
+                          number(units.length(spacing)),
+                          with_unit(constants.k1, units.stiffness),
+                          with_unit(constants.k2, units.stiffness),
+                          with_unit(constants.k3, units.stiffness),
+                          with_unit(constants.kappa, units.stress),
+                          null_directions(model.calibration)});
   }
   return table;
 }
@@ -199,58 +183,45 @@ WordList calibrations(const RunData& run) {
   return words;
 }
 
-struct CubeColumn {
-  double CubeRow::*value;
-  const char* label;
-};
-constexpr CubeColumn cube_columns[] = {
-    {&CubeRow::youngs_modulus_100, "E₁₀₀"}, {&CubeRow::youngs_modulus_110, "E₁₁₀"},
-    {&CubeRow::youngs_modulus_111, "E₁₁₁"}, {&CubeRow::shear_modulus, "G"},
-    {&CubeRow::poissons_ratio_100, "ν₁₀₀"}, {&CubeRow::bulk_modulus, "K"}};
-
 Table cubes_table(const RunData& run) {
-  Table table;
-  table.header = {{"Model", "", Grade::none}, {"Cells across", "", Grade::none}};
-  for (const CubeColumn& column : cube_columns)
-    table.header.push_back({column.label, "", Grade::none});
+  Table table{heads({"Model", "Cells across", "E₁₀₀", "E₁₁₀", "E₁₁₁", "G", "ν₁₀₀", "K"})};
   for (const CubeRow& cube : run.cubes) {
-    std::vector<Cell> row{{cube.model, "", Grade::none},
-                          {count(double(cube.cells_across)), "", Grade::none}};
     const ModelData* model = run.model(cube.model);
-    const Moduli known = model ? model->moduli : Moduli();
-    const double infinite[] = {known.E_100, known.E_110,  known.E_111,
-                               known.G,     known.nu_100, known.K};
-    for (std::size_t c = 0; c < std::size(cube_columns); ++c) {
-      const double value = cube.*cube_columns[c].value;
-      const bool ratio = c == 4;
-      row.push_back({number(ratio ? value : shown_units().stress(value)),
-                     percent(value / infinite[c] - 1.0), Grade::none});
-    }
+    const ModuliEntry known = model ? model->moduli : ModuliEntry();
+    std::vector<Cell> row{cube.model, count(double(cube.cells_across))};
+    const auto add = [&](double value, double infinite, double factor) {
+      row.emplace_back(number(factor * value), percent(value / infinite - 1.0));
+    };
+    const double stress = shown_units().stress.factor;
+    add(cube.youngs_modulus_100, known.E_100, stress);
+    add(cube.youngs_modulus_110, known.E_110, stress);
+    add(cube.youngs_modulus_111, known.E_111, stress);
+    add(cube.shear_modulus, known.G, stress);
+    add(cube.poissons_ratio_100, known.nu_100, 1.0);
+    add(cube.bulk_modulus, known.K, stress);
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
 Figure cubes_figure(const RunData& run) {
-  Panel panel;
-  panel.x_label = "cells across the cube";
-  panel.y_label = shown_units().stress.label("E along [100]");
-  panel.log_x = 2;
-  panel.key = "top right";
-  double least = 1e9, most = 1.0;
+  Range cells{1e9, 1.0};
   std::map<std::string, Series> curves;
   for (const CubeRow& cube : run.cubes) {
     const std::string& name = cube.model;
     auto [curve, fresh] =
-        curves.try_emplace(name, Series{model_label(name), name, {}, {}, {}, model_style(name)});
+        curves.try_emplace(name, Series{model_label(name), name, model_style(name)});
     curve->second.style.point = name == "published" ? 5 : name == "central" ? 9 : 7;
-    curve->second.x.push_back(cube.cells_across);
-    curve->second.y.push_back(shown_units().stress(cube.youngs_modulus_100));
-    least = std::fmin(least, cube.cells_across), most = std::fmax(most, cube.cells_across);
+    curve->second.add(cube.cells_across, shown_units().stress(cube.youngs_modulus_100));
+    cells.include(cube.cells_across);
   }
+  Panel panel{.x_label = "cells across the cube",
+              .y_label = shown_units().stress.label("E along [100]"),
+              .x_range = Range{0.8 * cells.from, 1.25 * cells.to},
+              .y_range = Range{0.0},
+              .log_x = 2,
+              .key = "top right"};
   for (auto& [name, curve] : curves) panel.series.push_back(std::move(curve));
-  panel.x_range = Range{0.8 * least, 1.25 * most};
-  panel.y_range = Range{0.0, meshes::unknown};
   return {"cubes", 760, 340, 1, {panel}};
 }
 
@@ -261,7 +232,7 @@ Chapter elasticity_chapter(const RunData& run) {
   ChapterData chapter("elasticity");
   const double nu = run.target.poissons_ratio;
   const ModelData* central = run.model("central");
-  const Moduli paid = central ? central->moduli : Moduli();
+  const ModuliEntry paid = central ? central->moduli : ModuliEntry();
   chapter["nu"] = if_known(nu, number(nu));
   chapter["central_nu"] = if_known(paid.K, number(paid.nu_100));
   chapter["central_bulk"] = stress(paid.K);

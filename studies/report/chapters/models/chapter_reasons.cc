@@ -23,7 +23,7 @@ double confined_ratio(const RunData& run, const ModelData& model) {
 }
 
 Words published_reason(const RunData& run, const ModelData& model) {
-  const Moduli& m = model.moduli;
+  const ModuliEntry& m = model.moduli;
   const double along = m.E_100 / run.target.youngs_modulus;
   const double across = m.E_111 / run.target.youngs_modulus;
   const double shear = m.G / run.target.shear_modulus, confined = confined_ratio(run, model);
@@ -62,8 +62,8 @@ Words central_reason(const RunData& run, const ModelData& model) {
 }
 
 Words hookean_reason(const RunData& run, const ModelData& model) {
-  const Moduli& m = model.moduli;
-  const Target& t = run.target;
+  const ModuliEntry& m = model.moduli;
+  const TargetEntry& t = run.target;
   const double worst = std::fmax(
       std::abs(m.E_100 / t.youngs_modulus - 1.0),
       std::fmax(std::abs(m.G / t.shear_modulus - 1.0), std::abs(m.K / t.bulk_modulus - 1.0)));
@@ -89,12 +89,10 @@ constexpr std::pair<const char*, Words (*)(const RunData&, const ModelData&)> re
 
 /// The speed at which the lattices were pressed; "" when none was.
 std::string speed_of_presses(const RunData& run) {
-  for (const ModelData& model : run.models) {
-    if (model.trace.empty()) continue;
-    double speed = meshes::unknown;
-    for (const lattice::TraceRow& row : model.trace) speed = std::fmax(speed, row.commanded_speed);
-    return with_unit(speed, shown_units().speed, 3);
-  }
+  for (const ModelData& model : run.models)
+    if (!model.trace.empty())
+      return with_unit(largest_of(model.trace, &lattice::TraceRow::commanded_speed),
+                       shown_units().speed, 3);
   return "";
 }
 

@@ -18,8 +18,6 @@ Chapter elasticity_chapter(const RunData& run);
 Chapter variants_chapter(const RunData& run);
 /// The study's result in one paragraph.
 std::string variants_answer(const RunData& run);
-/// Every press of a study with its force errors, as plain text.
-std::string variants_text(const RunData& run);
 /// Why the models differ, in words.
 Chapter reasons_chapter(const RunData& run);
 /// Time step, cost, mesh quality, momentum balance.

@@ -8,51 +8,14 @@
 
 namespace fingertip::studies::report::inline chapters::inline models {
 
-std::vector<VariantPress> read_variants(const std::vector<VariantRow>& table) {
-  std::vector<VariantPress> presses;
-  for (const VariantRow& row : table) {
-    const bool next =
-        presses.empty() || presses.back().series != row.series || presses.back().name != row.name;
-    if (next)
-      presses.push_back({row.series,
-                         row.name,
-                         row.model,
-                         row.continuum,
-                         row.status,
-                         row.x,
-                         row.spacing,
-                         row.volume_defect,
-                         row.wall_time,
-                         {},
-                         {},
-                         {},
-                         {}});
-    presses.back().depth.push_back(row.indentation);
-    presses.back().force.push_back(row.normal_force);
-    presses.back().reference.push_back(row.reference_force);
-    presses.back().error.push_back(row.relative_error);
-  }
-  return presses;
+std::vector<VariantPress> presses_of(const std::vector<VariantRow>& table) {
+  return grouped(table, [](const VariantRow& a, const VariantRow& b) {
+    return a.series == b.series && a.name == b.name;
+  });
 }
 
-namespace {
-
-template <typename Row>
-std::vector<std::string> found_series(const std::vector<Row>& rows) {
-  std::vector<std::string> names;
-  for (const Row& row : rows)
-    if (std::ranges::find(names, row.series) == names.end()) names.push_back(row.series);
-  return names;
-}
-
-}  // namespace
-
-std::vector<std::string> series_of(const std::vector<VariantPress>& presses) {
-  return found_series(presses);
-}
-
-std::vector<std::string> series_of(const std::vector<LaterRow>& table) {
-  return found_series(table);
+double worst_error(const VariantPress& press) {
+  return largest_of(press, &VariantRow::relative_error);
 }
 
 namespace {
@@ -62,9 +25,9 @@ constexpr int key_room = 215;
 constexpr std::size_t most_named = 9;
 
 /// Up to four of the depths, the first and the last among them.
-std::vector<double> shown_depths(const std::vector<VariantPress>& presses) {
+std::vector<double> shown_depths(const std::vector<VariantRow>& table) {
   std::set<double> all;
-  for (const VariantPress& press : presses) all.insert(press.depth.begin(), press.depth.end());
+  for (const VariantRow& row : table) all.insert(row.indentation);
   const std::vector<double> depths(all.begin(), all.end());
   if (depths.size() <= 4) return depths;
   std::vector<double> shown;
@@ -72,25 +35,23 @@ std::vector<double> shown_depths(const std::vector<VariantPress>& presses) {
   return shown;
 }
 
-/// The value at one depth; NaN when the press has no such sample.
-double at_depth(const VariantPress& press, const std::vector<double>& values, double depth) {
-  for (std::size_t i = 0; i < press.depth.size(); ++i)
-    if (press.depth[i] == depth) return values[i];
-  return meshes::unknown;
+std::vector<VariantPress> presses_in(const std::vector<VariantRow>& table,
+                                     const std::string& series) {
+  std::vector<VariantPress> own = presses_of(table);
+  std::erase_if(own, [&](const VariantPress& press) { return press.front().series != series; });
+  return own;
 }
 
-Series error_curve(const std::vector<VariantPress>& presses, const std::string& series,
-                   double depth) {
-  std::vector<const VariantPress*> found;
-  for (const VariantPress& press : presses)
-    if (press.series == series && std::isfinite(press.x)) found.push_back(&press);
-  std::ranges::stable_sort(found, {}, &VariantPress::x);
-  Series curve;
-  for (const VariantPress* press : found) {
-    curve.x.push_back(press->x);
-    curve.y.push_back(100.0 * at_depth(*press, press->error, depth));
-  }
-  return curve;
+/// Errors at one depth over x; NaN where a press has no such sample.
+Series error_curve(std::vector<VariantPress> presses, double depth) {
+  std::erase_if(presses, [](const auto& press) { return !std::isfinite(press.front().x); });
+  std::ranges::stable_sort(presses, {}, [](const auto& press) { return press.front().x; });
+  return curve(
+      "", "", {}, presses, [](const auto& press) { return press.front().x; },
+      [&](const auto& press) {
+        const auto row = std::ranges::find(press, depth, &VariantRow::indentation);
+        return row == press.end() ? meshes::unknown : 100.0 * row->relative_error;
+      });
 }
 
 /// Panels in one or two columns.
@@ -103,94 +64,76 @@ void lay_out(Figure& figure) {
 }
 
 /// The curves of a series' presses, coarse or early ones pale.
-void add_presses(Panel& panel, const std::vector<VariantPress>& presses, bool errors) {
+template <class Value>
+void add_presses(Panel& panel, const std::vector<VariantPress>& presses, const Value& value) {
   const std::size_t count = presses.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const VariantPress& press = presses[i];
-    Series curve{count > most_named ? "" : press.name, press.name, {}, {}, {}, {}};
-    curve.style = numbered_style(i);
-    curve.style.width = 1.6;
-    if (count > most_named) curve.style.colour = depth_shade(i, count);
-    for (std::size_t d = 0; d < press.depth.size(); ++d) {
-      curve.x.push_back(shown_units().length(press.depth[d]));
-      curve.y.push_back(errors ? 100.0 * press.error[d] : shown_units().force(press.force[d]));
-    }
-    panel.series.push_back(std::move(curve));
+    const std::string& name = presses[i].front().name;
+    Style style = numbered_style(i);
+    style.width = 1.6;
+    if (count > most_named) style.colour = depth_shade(i, count);
+    panel.series.push_back(curve(count > most_named ? "" : name, name, style, presses[i],
+                                 in(shown_units().length, &VariantRow::indentation), value));
   }
 }
+
+const Style continuum_style{"#000000", "(2,3)", 1.4};
 
 void add_continua(Panel& panel, const std::vector<VariantPress>& presses) {
   std::set<std::string> drawn;
   for (const VariantPress& press : presses) {
-    if (!drawn.insert(press.continuum).second) continue;
-    Series curve{drawn.size() > 1 ? "" : "continuum", press.continuum, {}, {}, {}, {}};
-    curve.style = {"#000000", "(2,3)", 1.4, 0, true};
-    for (std::size_t d = 0; d < press.depth.size(); ++d) {
-      curve.x.push_back(shown_units().length(press.depth[d]));
-      curve.y.push_back(shown_units().force(press.reference[d]));
-    }
-    panel.series.push_back(std::move(curve));
+    const std::string& name = press.front().continuum;
+    if (drawn.insert(name).second)
+      panel.series.push_back(curve(drawn.size() > 1 ? "" : "continuum", name, continuum_style,
+                                   press, in(shown_units().length, &VariantRow::indentation),
+                                   in(shown_units().force, &VariantRow::reference_force)));
   }
 }
 
 /// From zero to above the curves, lest they run through the legend.
 Range with_room_for_legend(const Panel& panel) {
-  double most = 0.0;
-  std::size_t labels = 0;
-  for (const Series& series : panel.series) {
-    if (!series.label.empty()) ++labels;
-    for (const double y : series.y) most = std::fmax(most, y);
-  }
+  const auto labels = std::ranges::count_if(
+      panel.series, [](const Series& series) { return !series.label.empty(); });
+  const double most = extent_of(panel.series, &Series::y).to;
   return {0.0, std::fmax(most, 1e-3) * (1.1 + 0.06 * double(labels))};
 }
 
 /// The curves of a series of programs.
 void add_later(const std::vector<LaterRow>& table, const std::string& series, Panel& force,
                Panel& distance) {
-  std::vector<std::string> presses;
+  const ShownUnit& unit = shown_units().force;
+  std::vector<LaterRow> own = table;
+  std::erase_if(own, [&](const LaterRow& row) { return row.series != series; });
   std::set<std::string> continua;
-  for (const LaterRow& row : table) {
-    if (row.series != series || std::ranges::find(presses, row.name) != presses.end()) continue;
-    presses.push_back(row.name);
-    const Style style = numbered_style(presses.size() - 1);
-    Series pressed{row.name, row.name, {}, {}, {}, style}, error = pressed;
-    Series wanted{continua.empty() ? "continuum" : "", row.continuum, {}, {}, {}, {}};
-    wanted.style = {"#000000", "(2,3)", 1.4, 0, true};
-    for (const LaterRow& own : table) {
-      if (own.series != series || own.name != row.name) continue;
-      for (Series* curve : {&pressed, &error, &wanted}) curve->x.push_back(own.time);
-      pressed.y.push_back(shown_units().force(own.normal_force));
-      wanted.y.push_back(shown_units().force(own.reference_force));
-      error.y.push_back(100.0 * own.error);
-    }
-    if (continua.insert(row.continuum).second) force.series.push_back(std::move(wanted));
-    force.series.push_back(std::move(pressed));
-    distance.series.push_back(std::move(error));
+  for (const std::string& name : distinct(own, &LaterRow::name)) {
+    std::vector<LaterRow> rows = own;
+    std::erase_if(rows, [&](const LaterRow& row) { return row.name != name; });
+    const std::string& continuum = rows.front().continuum;
+    const std::string label = continua.empty() ? "continuum" : "";
+    if (continua.insert(continuum).second)
+      force.series.push_back(curve(label, continuum, continuum_style, rows, &LaterRow::time,
+                                   in(unit, &LaterRow::reference_force)));
+    const Style style = numbered_style(distance.series.size());
+    force.series.push_back(
+        curve(name, name, style, rows, &LaterRow::time, in(unit, &LaterRow::normal_force)));
+    distance.series.push_back(
+        curve(name, name, style, rows, &LaterRow::time, in_percent(&LaterRow::error)));
   }
-}
-
-std::vector<VariantPress> presses_of(const std::vector<VariantPress>& presses,
-                                     const std::string& series) {
-  std::vector<VariantPress> own;
-  std::ranges::copy_if(presses, std::back_inserter(own),
-                       [&](const VariantPress& press) { return press.series == series; });
-  return own;
 }
 
 }  // namespace
 
-Figure variant_error_figure(const std::vector<VariantPress>& presses, const std::string& x_label) {
+Figure variant_error_figure(const std::vector<VariantRow>& table, const std::string& x_label) {
   Figure figure{"variants_error", 860, 430, 1, {}};
-  const std::vector<std::string> series = series_of(presses);
-  for (const double depth : shown_depths(presses)) {
-    Panel panel;
-    panel.title = "at " + shown_units().length.text(depth);
-    panel.x_label = x_label;
-    panel.y_label = "force error [%]";
-    panel.band = Band{-1.0, 1.0};
-    panel.key.clear();
+  const std::vector<std::string> series = distinct(table, &VariantRow::series);
+  for (const double depth : shown_depths(table)) {
+    Panel panel{.title = "at " + shown_units().length.text(depth),
+                .x_label = x_label,
+                .y_label = "force error [%]",
+                .band = Band{-1.0, 1.0},
+                .key = ""};
     for (std::size_t i = 0; i < series.size(); ++i) {
-      Series curve = error_curve(presses, series[i], depth);
+      Series curve = error_curve(presses_in(table, series[i]), depth);
       if (curve.x.empty()) continue;
       curve.label = curve.key = series[i].empty() ? "all presses" : series[i];
       curve.style = numbered_style(i);
@@ -208,43 +151,34 @@ Figure variant_error_figure(const std::vector<VariantPress>& presses, const std:
   return figure;
 }
 
-Figure convergence_figure(const std::vector<VariantPress>& presses, const StudyEntry& study) {
-  Figure figure{"variants_convergence", 760, 440, 1, {}};
-  Panel panel;
-  panel.x_label = shown_units().length.label("spacing a");
-  panel.y_label = "largest force error [%]";
-  panel.log_x = panel.log_y = 10;
-  panel.key = "outside right top";
-  std::size_t index = 0;
+Figure convergence_figure(const std::vector<VariantRow>& table, const StudyEntry& study) {
+  Panel panel{.x_label = shown_units().length.label("spacing a"),
+              .y_label = "largest force error [%]",
+              .log_x = 10,
+              .log_y = 10,
+              .key = "outside right top"};
   for (const SeriesEntry& entry : study.series) {
-    const double order = entry.order;
-    const std::string name = entry.name;
-    if (!std::isfinite(order)) continue;
-    Series curve;
-    curve.label = fmt::format("{}: order {}", name, number(order, 2));
-    curve.key = name;
-    curve.style = numbered_style(index++);
-    for (const VariantPress& press : presses) {
-      if (press.series != name || !std::isfinite(press.worst())) continue;
-      curve.x.push_back(shown_units().length(press.spacing));
-      curve.y.push_back(100.0 * press.worst());
-    }
+    if (!std::isfinite(entry.order)) continue;
+    Series curve{fmt::format("{}: order {}", entry.name, number(entry.order, 2)), entry.name,
+                 numbered_style(panel.series.size())};
+    for (const VariantPress& press : presses_in(table, entry.name))
+      if (const double worst = worst_error(press); std::isfinite(worst))
+        curve.add(shown_units().length(press.front().spacing), 100.0 * worst);
     panel.series.push_back(std::move(curve));
   }
+  Figure figure{"variants_convergence", 760, 440, 1, {}};
   if (!panel.series.empty()) figure.panels = {panel};
   return figure;
 }
 
-Figure variant_force_figure(const std::vector<VariantPress>& presses) {
+Figure variant_force_figure(const std::vector<VariantRow>& table) {
   Figure figure{"variants_force", 860, 430, 1, {}};
-  for (const std::string& series : series_of(presses)) {
-    const std::vector<VariantPress> own = presses_of(presses, series);
-    Panel panel;
+  for (const std::string& series : distinct(table, &VariantRow::series)) {
+    const std::vector<VariantPress> own = presses_in(table, series);
+    Panel panel = over_indentation(shown_units().force.label("normal force"));
     panel.title = series;
-    panel.x_label = shown_units().length.label("indentation");
-    panel.y_label = shown_units().force.label("normal force");
     add_continua(panel, own);
-    add_presses(panel, own, false);
+    add_presses(panel, own, in(shown_units().force, &VariantRow::normal_force));
     panel.y_range = with_room_for_legend(panel);
     figure.panels.push_back(std::move(panel));
   }
@@ -254,14 +188,14 @@ Figure variant_force_figure(const std::vector<VariantPress>& presses) {
 
 std::vector<Figure> variant_later_figures(const std::vector<LaterRow>& table) {
   std::vector<Figure> figures;
-  for (const std::string& series : series_of(table)) {
-    Panel force, distance;
-    force.x_label = distance.x_label = "time [s]";
-    force.y_label = shown_units().force.label("normal force");
-    distance.y_label = "error over largest force [%]";
-    force.key = "outside right top";
-    distance.key.clear();
-    distance.band = Band{-1.0, 1.0};
+  for (const std::string& series : distinct(table, &LaterRow::series)) {
+    Panel force{.x_label = "time [s]",
+                .y_label = shown_units().force.label("normal force"),
+                .key = "outside right top"};
+    Panel distance{.x_label = "time [s]",
+                   .y_label = "error over largest force [%]",
+                   .band = Band{-1.0, 1.0},
+                   .key = ""};
     add_later(table, series, force, distance);
     figures.push_back({fmt::format("variants_later_{}", figures.size() + 1),
                        860,
@@ -272,18 +206,13 @@ std::vector<Figure> variant_later_figures(const std::vector<LaterRow>& table) {
   return figures;
 }
 
-std::vector<Figure> variant_depth_figures(const std::vector<VariantPress>& presses) {
+std::vector<Figure> variant_depth_figures(const std::vector<VariantRow>& table) {
   std::vector<Figure> figures;
-  for (const std::string& series : series_of(presses)) {
-    Figure figure{fmt::format("variants_depth_{}", figures.size() + 1), 860, 330, 1, {}};
-    Panel panel;
-    panel.x_label = shown_units().length.label("indentation");
-    panel.y_label = "force error [%]";
-    panel.key = "outside right top";
+  for (const std::string& series : distinct(table, &VariantRow::series)) {
+    Panel panel = over_indentation("force error [%]", "outside right top");
     panel.band = Band{-1.0, 1.0};
-    add_presses(panel, presses_of(presses, series), true);
-    figure.panels = {panel};
-    figures.push_back(std::move(figure));
+    add_presses(panel, presses_in(table, series), in_percent(&VariantRow::relative_error));
+    figures.push_back({fmt::format("variants_depth_{}", figures.size() + 1), 860, 330, 1, {panel}});
   }
   return figures;
 }

@@ -25,19 +25,11 @@ double touch_time(const MovingPress& press) {
   return press.summary.first_touch_time;
 }
 
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
-}
-
 /// Deviation from the commanded speed in percent; NaN while nothing is commanded.
-std::vector<double> speed_deviation(const MovingPress& press) {
-  std::vector<double> deviation;
-  for (const TraceRow& row : press.trace)
-    deviation.push_back(row.commanded_speed > 0.0 && !row.force_mode
-                            ? 100.0 * (row.speed / row.commanded_speed - 1.0)
-                            : meshes::unknown);
-  return deviation;
+double speed_deviation(const TraceRow& row) {
+  return row.commanded_speed > 0.0 && !row.force_mode
+             ? 100.0 * (row.speed / row.commanded_speed - 1.0)
+             : meshes::unknown;
 }
 
 /// One group of presses: they share a column of panels and thereby the axis of time.
@@ -55,29 +47,17 @@ std::vector<Group> groups_of(const std::vector<MovingPress>& presses, bool force
   return groups;
 }
 
-/// A column of the trace of every press of the group against time.
+/// A quantity of the trace of every press of the group against time.
 Panel trace_panel(const Group& group, const std::string& label,
-                  const std::function<std::vector<double>(const MovingPress&)>& values) {
-  Panel panel;
-  panel.x_label = "time [s]";
-  panel.y_label = label;
-  panel.key = "";
-  double end = 0.0;
+                  const std::function<double(const TraceRow&)>& value) {
+  Panel panel{.x_label = "time [s]", .y_label = label, .key = ""};
   for (const MovingPress* press : group) {
-    const std::vector<double> time = column(press->trace, &TraceRow::time);
-    end = std::fmax(end, time.back());
     Style style = press->style;
     if (group.size() == 1) style.dash.clear();
-    panel.series.push_back({press->label, "", time, values(*press), {}, style});
+    panel.series.push_back(curve(press->label, "", style, press->trace, &TraceRow::time, value));
   }
-  panel.x_range = Range{0.0, end};
+  panel.x_range = Range{0.0, extent_of(panel.series, &Series::x).to};
   return panel;
-}
-
-auto scaled_column(double TraceRow::*member, double factor) {
-  return [member, factor](const MovingPress& press) {
-    return scaled(column(press.trace, member), factor);
-  };
 }
 
 /// First touch, and when it counts as over. With several models the markers have their colours.
@@ -105,13 +85,13 @@ void name_phases(const Group& group, double height, Panel& panel) {
 }
 
 Panel speed_panel(const Group& group) {
-  Panel panel = trace_panel(group, shown_units().speed.label("approach speed"),
-                            scaled_column(&TraceRow::speed, shown_units().speed.factor));
-  const double speed = shown_units().speed(group.front()->approach_speed());
-  panel.title = shown_units().speed.text(group.front()->approach_speed());
-  panel.y_range = Range{0.0, 1.3 * speed};
+  const ShownUnit& unit = shown_units().speed;
+  Panel panel = trace_panel(group, unit.label("approach speed"), in(unit, &TraceRow::speed));
+  const double speed = group.front()->approach_speed();
+  panel.title = unit.text(speed);
+  panel.y_range = Range{0.0, 1.3 * unit(speed)};
   panel.key = "bottom right";
-  name_phases(group, 1.18 * speed, panel);
+  name_phases(group, 1.18 * unit(speed), panel);
   return panel;
 }
 
@@ -128,35 +108,28 @@ bool is_part(const MovingPress& press) {
 }
 
 Panel tilt_panel(const Group& group) {
-  Panel panel =
-      trace_panel(group, "tilt [degrees]", scaled_column(&TraceRow::tilt, degree_per_radian));
-  double most = tilt_limit;
-  for (const Series& series : panel.series)
-    for (const double tilt : series.y) most = std::fmax(most, tilt);
+  Panel panel = trace_panel(group, "tilt [degrees]",
+                            [](const TraceRow& row) { return degree_per_radian * row.tilt; });
+  const double most = std::fmax(tilt_limit, extent_of(panel.series, &Series::y).to);
   panel.y_range = Range{0.0, 1.15 * most};
   panel.band = Band{0.0, tilt_limit};
   return panel;
 }
 
 Panel command_panel(const Group& group) {
-  return trace_panel(group, shown_units().force.label("commanded force"),
-                     scaled_column(&TraceRow::command_force, shown_units().force.factor));
+  const ShownUnit& unit = shown_units().force;
+  return trace_panel(group, unit.label("commanded force"), in(unit, &TraceRow::command_force));
 }
 
 Panel force_panel(const Group& group) {
-  Panel panel = trace_panel(group, shown_units().force.label("force of the tip"),
-                            scaled_column(&TraceRow::normal_force, shown_units().force.factor));
+  const ShownUnit& unit = shown_units().force;
+  Panel panel =
+      trace_panel(group, unit.label("force of the tip"), in(unit, &TraceRow::normal_force));
   for (const MovingPress* press : group) {
-    std::vector<double> wanted =
-        scaled(column(press->trace, &TraceRow::wanted_force), shown_units().force.factor);
-    if (std::isnan(largest_magnitude(wanted))) continue;
-    const double last = wanted.back();
-    panel.series.push_back({"wanted",
-                            press->label + " wanted",
-                            column(press->trace, &TraceRow::time),
-                            std::move(wanted),
-                            {},
-                            {"#000000", "(4,4)", 1.2, 0, true}});
+    if (std::isnan(largest_of(press->trace, &TraceRow::wanted_force))) continue;
+    panel.series.push_back(curve("wanted", press->label + " wanted", {"#000000", "(4,4)", 1.2},
+                                 press->trace, &TraceRow::time, in(unit, &TraceRow::wanted_force)));
+    const double last = panel.series.back().y.back();
     if (last > 0.0)
       panel.band = Band{last * (1.0 - 0.01 * force_limit), last * (1.0 + 0.01 * force_limit)};
   }
@@ -184,49 +157,35 @@ Figure columns_figure(const std::string& name, const std::vector<Group>& groups,
   return figure;
 }
 
-std::string shown(double value, const std::string& unit = "", int digits = 3) {
-  return std::isfinite(value) ? number(value, digits) + unit : "–";
-}
-
 /// What is no more than round-off is not told by its digits.
 std::string degrees(double angle) {
   if (!std::isfinite(angle)) return "–";
   return angle < 1e-9 ? "less than 1e-9 degrees" : number(angle, 2) + " degrees";
 }
 
-Table tracking_table(const std::vector<MovingPress>& presses, bool forces) {
-  Table table;
-  table.header = {plain("Press"),
-                  plain("Approach", unit_name(shown_units().speed)),
-                  plain("First touch", "s"),
-                  plain("Speed deviation", "largest"),
-                  plain("Speed deviation", "at first touch"),
-                  plain("Tilt", "largest"),
-                  plain("Peak force", unit_name(shown_units().force))};
-  if (forces) {
-    table.header.push_back(plain("Overshoot", "of the force"));
-    table.header.push_back(plain("Changes of mode"));
-  }
+Table tracking_table(const std::vector<MovingPress>& presses) {
+  const ShownUnits& units = shown_units();
+  Table table{heads({"Press", "Approach\n" + unit_name(units.speed), "First touch\ns",
+                     "Speed deviation\nlargest", "Speed deviation\nat first touch", "Tilt\nlargest",
+                     "Peak force\n" + unit_name(units.force), "Overshoot\nof the force",
+                     "Changes of mode"})};
   for (const MovingPress& press : presses) {
     if (press.trace.empty()) continue;
     const TrackingEntry& tracking = press.summary.tracking;
     const bool force = press.controls_force();
-    const auto deviation = [&](double value) {
-      return plain(force || std::isnan(value) ? "–" : percent_magnitude(value));
-    };
-    const double peak = largest_magnitude(column(press.trace, &TraceRow::normal_force));
+    const auto deviation = [&](double value) { return force ? "–" : percent_magnitude(value); };
     table.rows.push_back(
-        {plain(press.label, press.status == "finished" || press.status == "ok" ? "" : press.status),
-         plain(number(shown_units().speed(press.approach_speed()))),
-         plain(shown(touch_time(press), "", 4)), deviation(tracking.speed_deviation),
+        {{press.label, trouble(press.status)},
+         number(units.speed(press.approach_speed())),
+         number(touch_time(press)),
+         deviation(tracking.speed_deviation),
          deviation(tracking.speed_deviation_at_touch),
-         plain(std::isnan(tracking.tilt_deg) ? "–" : degrees(tracking.tilt_deg)),
-         plain(number(shown_units().force(peak)), si_note(peak, "N"))});
-    if (!forces) continue;
-    const double overshoot = force_overshoot(press.trace);
-    table.rows.back().push_back(plain(std::isfinite(overshoot) ? percent(overshoot) : "–"));
-    table.rows.back().push_back(plain(force ? number(mode_switches(press.trace)) : "–"));
+         degrees(tracking.tilt_deg),
+         amount_cell(largest_of(press.trace, &TraceRow::normal_force), units.force),
+         percent(force_overshoot(press.trace)),
+         force ? number(mode_switches(press.trace)) : "–"});
   }
+  table.drop_unknown(7);
   return table;
 }
 
@@ -252,25 +211,6 @@ std::string control_answer(const std::vector<MovingPress>& presses) {
   return sentences("answer_control", words);
 }
 
-std::string control_text(const std::vector<MovingPress>& presses) {
-  std::string text = fmt::format("{:<44}{:>12}{:>12}{:>12}{:>12}\n", "press", "speed", "at touch",
-                                 "tilt [deg]", "force error");
-  const auto cell = [](double fraction) {
-    return std::isfinite(fraction) ? fmt::format("{:>10.3f} %", 100.0 * fraction)
-                                   : fmt::format("{:>12}", "-");
-  };
-  for (const MovingPress& press : presses) {
-    const TrackingEntry& tracking = press.summary.tracking;
-    const double none = press.controls_force() ? meshes::unknown : 1.0;
-    const double tilt = tracking.tilt_deg;
-    text += fmt::format("{:<44}", press.label.substr(0, 43)) +
-            cell(none * tracking.speed_deviation) + cell(none * tracking.speed_deviation_at_touch) +
-            (std::isfinite(tilt) ? fmt::format("{:>12.2g}", tilt) : fmt::format("{:>12}", "-")) +
-            cell(press.force_error) + "\n";
-  }
-  return text + "deviation from the commanded speed; error of the force against the continuum\n";
-}
-
 Chapter control_chapter(const std::vector<MovingPress>& presses) {
   const std::vector<Group> tracked = groups_of(presses, false), forced = groups_of(presses, true);
   if (tracked.empty() && forced.empty()) return {};
@@ -286,7 +226,7 @@ Chapter control_chapter(const std::vector<MovingPress>& presses) {
   chapter.figures = {
       columns_figure("tracking", tracked, followed),
       columns_figure("force_control", forced, {speed_panel, command_panel, force_panel})};
-  chapter.tables["tracking"] = tracking_table(presses, forces);
+  chapter.tables["tracking"] = tracking_table(presses);
   return written(std::move(chapter));
 }
 

@@ -39,45 +39,39 @@ std::vector<Series> cost_series(const std::vector<MovingPress>& presses) {
       Style style = press->style;
       style.point = 7 + 2 * int(all.size());
       style.point_size = 0.9;
-      found = all.insert(all.end(), Series{name, "", {}, {}, {}, style});
+      found = all.insert(all.end(), {name, "", style});
     }
-    found->x.push_back(press->summary.steps.force_evaluations);
-    found->y.push_back(100.0 * press->change);
+    found->add(press->summary.steps.force_evaluations, 100.0 * press->change);
   }
   return all;
 }
 
 Figure cost_figure(const std::vector<MovingPress>& presses) {
-  Panel panel;
-  panel.x_label = "force evaluations of the press [1]";
-  panel.y_label = "largest difference of the force [%]";
-  panel.log_x = panel.log_y = 10;
-  panel.key = "top right";
-  panel.series = cost_series(presses);
+  const Panel panel{.x_label = "force evaluations of the press [1]",
+                    .y_label = "largest difference of the force [%]",
+                    .series = cost_series(presses),
+                    .log_x = 10,
+                    .log_y = 10,
+                    .key = "top right"};
   return {"cost_of_integrators", 820, 460, 1, {panel}};
 }
 
 Table cost_table(const std::vector<MovingPress>& presses) {
   double cheapest = meshes::unknown;
   for (const MovingPress& press : presses) cheapest = std::fmin(cheapest, press.summary.wall_time);
-  Table table;
-  table.header = {plain("Integrator"),
-                  plain("Step or bound"),
-                  plain("Steps"),
-                  plain("rejected"),
-                  plain("Force evaluations"),
-                  plain("Wall time", "quickest = 1"),
-                  plain("Momentum balance"),
-                  plain("Difference of the force")};
+  Table table{heads({"Integrator", "Step or bound", "Steps", "rejected", "Force evaluations",
+                     "Wall time\nquickest = 1", "Momentum balance", "Difference of the force"})};
   for (const MovingPress& press : presses) {
-    const double wall = press.summary.wall_time;
-    table.rows.push_back(
-        {plain(integrator_of(press)), plain(setting_of(press)),
-         plain(count(press.summary.steps.accepted)), plain(count(press.summary.steps.rejected)),
-         plain(count(press.summary.steps.force_evaluations)), plain(number(wall / cheapest, 3)),
-         plain(number(press.summary.momentum_defect, 2)),
-         plain(is_compared(press) ? percent_magnitude(press.change) : "–",
-               press.beside.empty() ? "the measure" : "")});
+    const PressSummary& s = press.summary;
+    table.rows.push_back({integrator_of(press),
+                          setting_of(press),
+                          count(s.steps.accepted),
+                          count(s.steps.rejected),
+                          count(s.steps.force_evaluations),
+                          number(s.wall_time / cheapest, 3),
+                          number(s.momentum_defect, 2),
+                          {is_compared(press) ? percent_magnitude(press.change) : "–",
+                           press.beside.empty() ? "the measure" : ""}});
   }
   return table;
 }
@@ -91,26 +85,15 @@ bool compares_integrators(const std::vector<MovingPress>& presses) {
 }
 
 std::string integrators_answer(const std::vector<MovingPress>& presses) {
-  const MovingPress* best = nullptr;
-  for (const MovingPress& press : presses)
-    if (is_compared(press) && (!best || press.change < best->change)) best = &press;
+  const MovingPress* best = largest_in(presses, [](const MovingPress& press) {
+    return is_compared(press) ? -press.change : meshes::unknown;
+  });
   Words words;
   words["beside"] = best ? best->beside : "";
   words["press"] = best ? best->label : "";
   words["change"] = best ? percent_magnitude(best->change) : "";
   words["evaluations"] = best ? count(best->summary.steps.force_evaluations) : "";
   return sentences("answer_integrators", words);
-}
-
-std::string integrators_text(const std::vector<MovingPress>& presses) {
-  std::string text = fmt::format("{:<36}{:>12}{:>12}{:>16}{:>14}\n", "press", "steps", "rejected",
-                                 "evaluations", "difference");
-  for (const MovingPress& press : presses)
-    text += fmt::format("{:<36}{:>12}{:>12}{:>16}{:>14}\n", press.label.substr(0, 35),
-                        press.summary.steps.accepted, press.summary.steps.rejected,
-                        press.summary.steps.force_evaluations,
-                        is_compared(press) ? fmt::format("{:.4f} %", 100.0 * press.change) : "-");
-  return text + "largest difference of the normal force from the press compared with\n";
 }
 
 Chapter integrators_chapter(const std::vector<MovingPress>& presses) {

@@ -18,25 +18,17 @@ struct Frame {
 /// The frame that holds everything, from the undeformed mesh section (or the lattice boundary).
 Frame common_frame(const RunData& run) {
   double radius = 0.0, top = -1e9, bottom = 1e9, depth = run.reference.depth();
-  const auto include = [&](const std::vector<double>& x, const std::vector<double>& z) {
-    for (double value : x) radius = std::fmax(radius, std::abs(shown_units().length(value)));
-    for (double value : z)
-      top = std::fmax(top, shown_units().length(value)),
-      bottom = std::fmin(bottom, shown_units().length(value));
+  const auto include = [&](double x, double z) {
+    radius = std::fmax(radius, std::abs(shown_units().length(x)));
+    top = std::fmax(top, shown_units().length(z));
+    bottom = std::fmin(bottom, shown_units().length(z));
   };
-  const auto along = [](const auto& rows, auto member, int axis) {
-    std::vector<double> values;
-    for (const auto& row : rows) values.push_back((row.*member)[std::size_t(axis)]);
-    return values;
-  };
-  constexpr auto corners = &fem_reference::SectionRow::undeformed;
-  include(along(run.section, corners, 0), along(run.section, corners, 1));
+  for (const fem_reference::SectionRow& row : run.section)
+    include(row.undeformed[0], row.undeformed[1]);
   for (const ModelData& model : run.models) {
     depth = std::max(depth, model.response.depth());
-    if (run.section.empty() && !model.boundary.empty()) {
-      include(along(model.boundary, &BoundaryRow::rest, 0),
-              along(model.boundary, &BoundaryRow::rest, 2));
-    }
+    if (run.section.empty())
+      for (const BoundaryRow& row : model.boundary) include(row.rest.x(), row.rest.z());
   }
   Frame frame;
   frame.touch = first_touch(run).plane;
@@ -47,16 +39,18 @@ Frame common_frame(const RunData& run) {
   return frame;
 }
 
-Panel frame_panel(const Frame& frame, const std::string& title) {
-  Panel panel;
-  panel.title = title;
-  panel.x_label = shown_units().length.label("x");
-  panel.y_label = shown_units().length.label("z");
-  panel.x_range = frame.x;
-  panel.y_range = frame.z;
-  panel.equal_scales = true;
-  panel.key = "";
-  return panel;
+/// A shape in the frame, with the obstacle below.
+Panel frame_panel(const RunData& run, const Frame& frame, const std::string& title, bool pressed,
+                  std::vector<Series> shape) {
+  shape.push_back(obstacle_series(run, frame.x, pressed ? frame.end : frame.touch));
+  return {.title = title + (pressed ? ", pressed" : ", at first touch"),
+          .x_label = shown_units().length.label("x"),
+          .y_label = shown_units().length.label("z"),
+          .series = std::move(shape),
+          .x_range = frame.x,
+          .y_range = frame.z,
+          .equal_scales = true,
+          .key = ""};
 }
 
 /// How far the rod has travelled from rest to the end [m]; unknown where no file tells it.
@@ -69,7 +63,7 @@ double rod_travel(const ModelData& model) {
 
 /// The boundary springs on the viewer's side (y <= 0), projected on the plane y = 0.
 Series boundary_series(const ModelData& model, bool deformed, const Style& style) {
-  Series series{"", model.name + (deformed ? " deformed" : " undeformed"), {}, {}, {}, style};
+  Series series{"", model.name + (deformed ? " deformed" : " undeformed"), style};
   const double travel = deformed ? rod_travel(model) : 0.0;
   for (const BoundarySpringRow& spring : model.boundary_springs) {
     const BoundaryRow &first = model.boundary[spring.i], &second = model.boundary[spring.j];
@@ -83,46 +77,35 @@ Series boundary_series(const ModelData& model, bool deformed, const Style& style
 }
 
 Series anchored_series(const ModelData& model) {
-  Series series{"", model.name + " anchored", {}, {}, {}, {"#CC79A7", "", 1.0, 7, false, 0.35}};
+  Series series{"", model.name + " anchored", {"#CC79A7", "", 1.0, 7, false, 0.35}};
   const double travel = rod_travel(model);
-  for (const BoundaryRow& row : model.boundary) {
-    if (!row.anchored) continue;
-    series.x.push_back(shown_units().length(row.deformed.x()));
-    series.y.push_back(shown_units().length(row.deformed.z() - travel));
-  }
+  for (const BoundaryRow& row : model.boundary)
+    if (row.anchored)
+      series.add(shown_units().length(row.deformed.x()),
+                 shown_units().length(row.deformed.z() - travel));
   return series;
 }
 
 Figure shapes_figure(const RunData& run) {
   const Frame frame = common_frame(run);
   Figure figure{"shapes", 900, 700, 3, {}};
+  const auto add = [&](const std::string& title, bool pressed, std::vector<Series> shape) {
+    figure.panels.push_back(frame_panel(run, frame, title, pressed, std::move(shape)));
+  };
   if (!run.section.empty()) {
-    Panel rest = frame_panel(frame, "continuum mesh, y = 0, at first touch");
-    rest.series.push_back(section_series(run, false, thin("#444444")));
-    rest.series.push_back(obstacle_series(run, frame.x, frame.touch));
-    Panel pressed = frame_panel(frame, "continuum mesh, pressed");
-    pressed.series.push_back(section_series(run, true, thin("#444444")));
-    pressed.series.push_back(obstacle_series(run, frame.x, frame.end));
-    figure.panels = {rest, pressed};
+    add("continuum mesh, y = 0", false, {section_series(run, false, thin("#444444"))});
+    add("continuum mesh", true, {section_series(run, true, thin("#444444"))});
   }
-  const ModelData* drawn = nullptr;
-  for (const ModelData& model : run.models) {
-    if (!model.boundary.empty() && !model.boundary_springs.empty()) drawn = &model;
-  }
-  if (drawn) {
-    Panel rest = frame_panel(frame, model_label(drawn->name) + ", at first touch");
-    rest.series.push_back(boundary_series(*drawn, false, thin("#444444")));
-    rest.series.push_back(obstacle_series(run, frame.x, frame.touch));
-    figure.panels.push_back(rest);
-  }
-  for (const ModelData& model : run.models) {
-    if (model.boundary.empty() || model.boundary_springs.empty()) continue;
-    Panel pressed = frame_panel(frame, model_label(model.name) + ", pressed");
-    pressed.series.push_back(boundary_series(model, true, thin(model_style(model.name).colour)));
-    pressed.series.push_back(anchored_series(model));
-    pressed.series.push_back(obstacle_series(run, frame.x, frame.end));
-    figure.panels.push_back(pressed);
-  }
+  std::vector<const ModelData*> drawn;
+  for (const ModelData& model : run.models)
+    if (!model.boundary.empty() && !model.boundary_springs.empty()) drawn.push_back(&model);
+  if (!drawn.empty())
+    add(model_label(drawn.back()->name), false,
+        {boundary_series(*drawn.back(), false, thin("#444444"))});
+  for (const ModelData* model : drawn)
+    add(model_label(model->name), true,
+        {boundary_series(*model, true, thin(model_style(model->name).colour)),
+         anchored_series(*model)});
   if (figure.panels.size() <= 3) figure.height = 370;
   return figure;
 }

@@ -16,59 +16,49 @@ std::string in_seconds(double time) {
 
 /// Force and indentation in time, one above the other: of the trace, else of the samples.
 std::vector<Panel> time_panels(const meshes::PressResponse& response, const PressFiles& files) {
-  Panel force, way;
-  force.x_label = way.x_label = "time [s]";
-  force.y_label = shown_units().force.label("normal force");
-  way.y_label = shown_units().length.label("indentation");
-  force.key = way.key = "";
-  Series pressed{"", "force", {}, {}, {}, {"#0072B2", "", 2.0, 0, true}},
-      gone{"", "indentation", {}, {}, {}, {"#000000", "", 1.6, 0, true}};
-  const auto add = [&](double time, double indentation, double normal_force) {
-    if (std::isnan(time)) return;
-    for (Series* series : {&pressed, &gone}) series->x.push_back(time);
-    pressed.y.push_back(shown_units().force(normal_force));
-    gone.y.push_back(shown_units().length(indentation));
+  const ShownUnit &length = shown_units().length, &force = shown_units().force;
+  Series pressed{"", "force", {"#0072B2"}}, gone{"", "indentation", {"#000000", "", 1.6}};
+  const auto add = [&](const auto& rows) {
+    for (const auto& row : rows) {
+      if (std::isnan(row.time)) continue;
+      pressed.add(row.time, force(row.normal_force));
+      gone.add(row.time, length(row.indentation));
+    }
   };
-  for (const lattice::TraceRow& row : files.trace) add(row.time, row.indentation, row.normal_force);
-  if (files.trace.empty())
-    for (const meshes::PressSample& sample : response.samples())
-      add(sample.time, sample.indentation, sample.normal_force);
+  add(files.trace);
+  if (files.trace.empty()) add(response.samples());
   if (pressed.x.empty()) return {};
-  force.series.push_back(std::move(pressed));
-  way.series.push_back(std::move(gone));
-  return {force, way};
-}
-
-Table stage_table(const std::vector<StageEntry>& stages) {
-  const ShownUnits& units = shown_units();
-  Table table;
-  table.header = {plain("Stage"),
-                  plain("Indentation", unit_name(units.length)),
-                  plain("Speed", unit_name(units.speed)),
-                  plain("From", "s"),
-                  plain("To", "s"),
-                  plain("Force before", unit_name(units.force)),
-                  plain("Force after", unit_name(units.force)),
-                  plain("Relaxed")};
-  const auto force = [&](double value) {
-    return std::isnan(value) ? plain("–") : plain(number(units.force(value)), si_note(value, "N"));
-  };
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    const StageEntry& stage = stages[i];
-    table.rows.push_back(
-        {plain(std::to_string(i + 1)),
-         plain(fmt::format("{:.4g}", units.length(stage.indentation))),
-         plain(stage.holds()             ? "hold"
-               : std::isnan(stage.speed) ? "–"
-                                         : number(units.speed(stage.speed))),
-         plain(in_seconds(stage.begin)), plain(in_seconds(stage.end)), force(stage.begin_force),
-         force(stage.end_force),
-         plain(std::isnan(stage.relaxation) ? "–" : percent_magnitude(stage.relaxation))});
-  }
-  return table;
+  return {
+      {.x_label = "time [s]",
+       .y_label = force.label("normal force"),
+       .series = {pressed},
+       .key = ""},
+      {.x_label = "time [s]", .y_label = length.label("indentation"), .series = {gone}, .key = ""}};
 }
 
 }  // namespace
+
+Table stage_table(const std::vector<StageEntry>& stages) {
+  const ShownUnits& units = shown_units();
+  Table table{
+      heads({"Stage", "Indentation\n" + unit_name(units.length), "Speed\n" + unit_name(units.speed),
+             "From\ns", "To\ns", "Force before\n" + unit_name(units.force),
+             "Force after\n" + unit_name(units.force), "Relaxed"})};
+  double largest = 0.0;
+  for (const StageEntry& stage : stages)
+    largest = std::fmax(largest, std::fmax(stage.begin_force, stage.end_force));
+  // What is no more than round-off is not told by its digits.
+  const auto force = [&](double value) {
+    return amount_cell(std::abs(value) < 1e-6 * largest ? 0.0 : value, units.force);
+  };
+  for (const StageEntry& stage : stages)
+    table.rows.push_back({std::to_string(table.rows.size() + 1),
+                          fmt::format("{:.4g}", units.length(stage.indentation)),
+                          stage.holds() ? "hold" : number(units.speed(stage.speed)),
+                          in_seconds(stage.begin), in_seconds(stage.end), force(stage.begin_force),
+                          force(stage.end_force), percent_magnitude(stage.relaxation)});
+  return table;
+}
 
 Chapter program_chapter(const meshes::PressResponse& response, const PressFiles& files) {
   const bool several = files.summary.program.size() > 1;

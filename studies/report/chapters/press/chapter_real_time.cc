@@ -8,25 +8,20 @@ namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 Table trial_table(const RealTimeRecord& record) {
-  Table table;
-  table.header = {plain("Spacing"), plain("Step"), plain("Threads"), plain("Real-time factor")};
+  Table table{heads({"Spacing", "Step", "Threads", "Real-time factor"})};
   for (const PaceTrialEntry& trial : record.trials)
-    table.rows.push_back({plain(shown_units().length.text(trial.spacing)),
-                          plain(with_prefix(trial.step, "s")), plain(count(double(trial.threads))),
-                          plain(number(trial.real_time_factor, 3))});
+    table.rows.push_back({shown_units().length.text(trial.spacing), with_prefix(trial.step, "s"),
+                          count(double(trial.threads)), number(trial.real_time_factor, 3)});
   return table;
 }
 
 Table error_table(const TransferObstacleEntry& errors) {
-  Table table;
-  table.graded = true;
-  table.header = {plain("Force error")};
+  Table table{{"Force error"}, true};
   for (const double depth : errors.indentation)
-    table.header.push_back(plain(shown_units().length.text(depth)));
+    table.header.emplace_back(shown_units().length.text(depth));
   for (const TransferModelEntry& model : errors.models) {
-    std::vector<Cell> row{plain(model.model)};
-    for (const double error : model.error) row.push_back({percent(error), "", grade(error)});
-    table.rows.push_back(std::move(row));
+    table.rows.push_back({model.model});
+    for (const double error : model.error) table.rows.back().push_back(error_cell(error));
   }
   return table;
 }

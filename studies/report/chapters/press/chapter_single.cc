@@ -18,46 +18,31 @@ namespace {
 /// Rows of a table that a reader takes in; the figure and its CSV have every sample.
 constexpr std::size_t most_rows = 20;
 
-const Style single{"#0072B2", "", 2.2, 7, true};
+const Style single{"#0072B2", "", 2.2, 7};
 
-using SampleRange = std::span<const meshes::PressSample>;
-
-/// What the samples are ordered by.
-struct SampleAxis {
-  const char* title;
-  double meshes::PressSample::*value;  ///< [m]
-};
-constexpr SampleAxis by_indentation{"Indentation", &meshes::PressSample::indentation};
-constexpr SampleAxis by_displacement{"Lateral displacement",
-                                     &meshes::PressSample::lateral_displacement};
+SampleColumn normal_force() {
+  return {"Normal force", &meshes::PressSample::normal_force, shown_units().force};
+}
 
 /// From zero, where both begin, unless inertia pulls at the rod or it lifts off.
 void begin_at_zero(Panel& panel) {
-  const auto negative = [&](std::vector<double> Series::*values) {
-    return std::ranges::any_of(panel.series, [&](const Series& series) {
-      return std::ranges::any_of(series.*values, [](double value) { return value < 0.0; });
-    });
+  const auto range = [&](std::vector<double> Series::*numbers) {
+    const bool negative = extent_of(panel.series, numbers).from < 0.0;
+    return negative ? std::nullopt : std::optional(Range{0.0});
   };
-  panel.x_range.reset();
-  panel.y_range.reset();
-  if (!negative(&Series::x)) panel.x_range = Range{0.0, meshes::unknown};
-  if (!negative(&Series::y)) panel.y_range = Range{0.0, meshes::unknown};
+  panel.x_range = range(&Series::x);
+  panel.y_range = range(&Series::y);
 }
 
-Panel curve_panel(SampleRange samples, const SampleAxis& axis, const char* title,
-                  double meshes::PressSample::*value, const ShownUnit& unit) {
-  Panel panel;
-  panel.x_label = shown_units().length.label(axis.title);
-  panel.x_label[0] = char(std::tolower(panel.x_label[0]));
-  panel.y_label = unit.label(title);
-  panel.key = "";
-  Series series{"", "press", {}, {}, {}, single};
-  if (samples.size() > most_rows) series.style.point = 0;
-  for (const meshes::PressSample& sample : samples) {
-    series.x.push_back(shown_units().length(sample.*axis.value));
-    series.y.push_back(unit(sample.*value));
-  }
-  panel.series.push_back(std::move(series));
+Panel curve_panel(SampleRange samples, const SampleColumn& over, const SampleColumn& column) {
+  std::string x_label = over.unit.label(over.title), y_label = column.unit.label(column.title);
+  for (std::string* label : {&x_label, &y_label})
+    label->front() = char(std::tolower(label->front()));
+  Panel panel{.x_label = x_label,
+              .y_label = y_label,
+              .series = {curve("", "press", samples.size() > most_rows ? single.as_line() : single,
+                               samples, in(over.unit, over.value), in(column.unit, column.value))},
+              .key = ""};
   begin_at_zero(panel);
   return panel;
 }
@@ -66,20 +51,17 @@ Panel curve_panel(SampleRange samples, const SampleAxis& axis, const char* title
 Panel loop_panel(const meshes::PressResponse& response,
                  const std::vector<lattice::TraceRow>& trace) {
   const SampleRange loading = response.pressing();
-  Panel panel = curve_panel(loading, by_indentation, "normal force",
-                            &meshes::PressSample::normal_force, shown_units().force);
+  Panel panel = curve_panel(loading, indentation(), normal_force());
   if (response.following().empty()) return panel;
-  Series then{"then", "then", {}, {}, {}, {"#D55E00", "", 2.2, trace.empty() ? 7 : 0, true}};
-  const auto add = [&then](double indentation, double force) {
-    then.x.push_back(shown_units().length(indentation));
-    then.y.push_back(shown_units().force(force));
+  Series then{"then", "then", {"#D55E00", "", 2.2, trace.empty() ? 7 : 0}};
+  const auto add = [&then](const auto& row) {
+    then.add(shown_units().length(row.indentation), shown_units().force(row.normal_force));
   };
-  add(loading.back().indentation, loading.back().normal_force);
+  add(loading.back());
   for (const lattice::TraceRow& row : trace)
-    if (row.time > loading.back().time) add(row.indentation, row.normal_force);
+    if (row.time > loading.back().time) add(row);
   if (trace.empty())
-    for (const meshes::PressSample& sample : response.following())
-      add(sample.indentation, sample.normal_force);
+    for (const meshes::PressSample& sample : response.following()) add(sample);
   panel.series.front().label = "first loading";
   panel.series.push_back(std::move(then));
   panel.key = "top left";
@@ -87,18 +69,11 @@ Panel loop_panel(const meshes::PressResponse& response,
   return panel;
 }
 
-bool known(SampleRange samples, double meshes::PressSample::*value) {
-  return std::ranges::any_of(
-      samples, [value](const meshes::PressSample& sample) { return std::isfinite(sample.*value); });
+bool is_known(SampleRange samples, const SampleColumn& column) {
+  return std::ranges::any_of(samples, [&](const meshes::PressSample& sample) {
+    return std::isfinite(sample.*column.value);
+  });
 }
-
-/// A column of the samples' table.
-struct Column {
-  const char* title;
-  const char* direction;
-  double meshes::PressSample::*value;
-  ShownUnit unit;
-};
 
 /// Whether a force is more than what solvers leave of the normal force.
 bool significant(SampleRange samples, double meshes::PressSample::*force) {
@@ -108,54 +83,28 @@ bool significant(SampleRange samples, double meshes::PressSample::*force) {
   });
 }
 
-Table sample_table(SampleRange samples, const SampleAxis& axis) {
-  const ShownUnits& units = shown_units();
-  const Column columns[] = {
-      {"Normal force", "", &meshes::PressSample::normal_force, units.force},
-      {"Estimated error", "", &meshes::PressSample::force_error, units.force},
-      {"Lateral force", "along t1, ", &meshes::PressSample::lateral_force_x, units.force},
-      {"Contact radius", "", &meshes::PressSample::contact_radius, units.length},
-      {"Peak pressure", "", &meshes::PressSample::max_pressure, units.stress}};
-  Table table;
-  table.header = {plain(axis.title, unit_name(units.length))};
-  std::vector<Column> shown;
-  for (const Column& column : columns) {
-    if (!known(samples, column.value)) continue;
-    if (column.value == &meshes::PressSample::lateral_force_x &&
-        !significant(samples, column.value))
-      continue;
-    shown.push_back(column);
-    table.header.push_back(plain(column.title, column.direction + unit_name(column.unit)));
-  }
-  // Every 2nd, 5th, 10th ... so that depths stay round, and the last one is among them.
+/// Every 2nd, 5th, 10th ... so that depths stay round, and the last one is among them.
+std::vector<meshes::PressSample> thinned(SampleRange samples) {
   std::size_t every = 1;
   for (const std::size_t step : {2, 5, 10, 20, 50, 100, 200, 500, 1000})
     if ((samples.size() + every - 1) / every > most_rows) every = step;
-  for (std::size_t i = (samples.size() - 1) % every; i < samples.size(); i += every) {
-    const auto& sample = samples[i];
-    std::vector<Cell> row{plain(fmt::format("{:.4g}", units.length(sample.*axis.value)))};
-    for (const Column& column : shown) {
-      const double value = sample.*column.value;
-      row.push_back(std::isnan(value) ? plain("–")
-                                      : plain(number(column.unit(value)),
-                                              si_note(value, std::string(column.unit.si))));
-    }
-    table.rows.push_back(std::move(row));
-  }
-  return table;
+  std::vector<meshes::PressSample> some;
+  for (std::size_t i = (samples.size() - 1) % every; i < samples.size(); i += every)
+    some.push_back(samples[i]);
+  return some;
 }
 
-void add_samples(ChapterData& chapter, SampleRange samples, const SampleAxis& axis) {
-  Table table = sample_table(samples, axis);
-  const std::size_t rows = table.rows.size();
-  chapter["shown"] = rows < samples.size() ? std::to_string(rows) : "";
+void add_samples(ChapterData& chapter, SampleRange samples, const SampleColumn& over) {
+  const std::vector<meshes::PressSample> shown = thinned(samples);
+  chapter["shown"] = shown.size() < samples.size() ? std::to_string(shown.size()) : "";
   chapter["all"] = std::to_string(samples.size());
-  chapter.tables["samples"] = std::move(table);
+  chapter.tables["samples"] = sample_table(shown, over);
 }
 
 /// Pressure of the points on the plane against their distance from the contact's centre, and the
 /// peak that is told at that depth.
 Figure pressure_figure(const std::vector<ContactRow>& contact, const meshes::PressSample& last) {
+  const ShownUnit &length = shown_units().length, &stress = shown_units().stress;
   double weight = 0.0;
   meshes::Vector3 sum = meshes::Vector3::Zero();
   for (const ContactRow& point : contact) {
@@ -169,49 +118,73 @@ Figure pressure_figure(const std::vector<ContactRow>& contact, const meshes::Pre
     return cut || !(weight > 0.0) ? 0.0 : sum[axis] / weight;
   };
   const double cx = centre(0), cy = centre(1);
-  Panel panel;
-  panel.x_label = shown_units().length.label("distance from the contact's centre");
-  panel.y_label = shown_units().stress.label("pressure");
-  panel.key = "";
-  Series series{"", "points", {}, {}, {}, {"#0072B2", "", 1.0, 7, false, 0.45}};
-  for (const ContactRow& point : contact) {
-    if (!(point.pressure > 0.0)) continue;
-    series.x.push_back(
-        shown_units().length(std::hypot(point.deformed.x() - cx, point.deformed.y() - cy)));
-    series.y.push_back(shown_units().stress(point.pressure));
-  }
-  panel.series.push_back(std::move(series));
+  Series points{"", "points", {"#0072B2", "", 1.0, 7, false, 0.45}};
+  for (const ContactRow& point : contact)
+    if (point.pressure > 0.0)
+      points.add(length(std::hypot(point.deformed.x() - cx, point.deformed.y() - cy)),
+                 stress(point.pressure));
+  Panel panel{.x_label = length.label("distance from the contact's centre"),
+              .y_label = stress.label("pressure"),
+              .series = {std::move(points)},
+              .x_range = Range{0.0},
+              .key = ""};
   if (!std::isnan(last.max_pressure)) {
-    const double peak = shown_units().stress(last.max_pressure);
+    const double peak = stress(last.max_pressure);
     panel.series.push_back({"peak pressure as told",
                             "",
-                            {0.0, shown_units().length(last.contact_radius)},
-                            {peak, peak},
-                            {},
-                            {"#333333", "(7,4)", 1.6, 0, true}});
+                            {"#333333", "(7,4)", 1.6},
+                            {0.0, length(last.contact_radius)},
+                            {peak, peak}});
     panel.key = "top right";
   }
-  panel.x_range = Range{0.0, meshes::unknown};
   return {"contact_pressure", 760, 380, 1, {panel}};
 }
 
 }  // namespace
 
+SampleColumn indentation() {
+  return {"Indentation", &meshes::PressSample::indentation, shown_units().length};
+}
+
+SampleColumn lateral_displacement() {
+  return {"Lateral displacement", &meshes::PressSample::lateral_displacement, shown_units().length};
+}
+
+Table sample_table(SampleRange samples, const SampleColumn& over) {
+  const ShownUnits& units = shown_units();
+  using Sample = meshes::PressSample;
+  const bool lateral = significant(samples, &Sample::lateral_force_x);
+  const SampleColumn columns[] = {
+      normal_force(),
+      {"Estimated error", &Sample::force_error, units.force},
+      {"Lateral force", &Sample::lateral_force_x, units.force, "along t1, "},
+      {"Contact radius", &Sample::contact_radius, units.length},
+      {"Peak pressure", &Sample::max_pressure, units.stress}};
+  Table table{{{over.title, unit_name(over.unit)}}};
+  for (const Sample& sample : samples)
+    table.rows.push_back({fmt::format("{:.4g}", over.unit(sample.*over.value))});
+  for (const SampleColumn& column : columns) {
+    if (column.value == &Sample::lateral_force_x && !lateral) continue;
+    table.header.emplace_back(column.title, column.direction + unit_name(column.unit));
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      table.rows[i].push_back(amount_cell(samples[i].*column.value, column.unit));
+  }
+  table.drop_unknown(1);
+  return table;
+}
+
 Chapter press_chapter(const meshes::PressResponse& response, const std::vector<ContactRow>& contact,
                       const std::vector<lattice::TraceRow>& trace) {
   if (response.empty()) return {};
   const SampleRange samples = response.pressing();
+  const SampleColumn radius{"Contact radius", &meshes::PressSample::contact_radius,
+                            shown_units().length};
   ChapterData chapter("press");
   chapter.figures = {{"force_indentation", 760, 420, 1, {loop_panel(response, trace)}}};
-  add_samples(chapter, samples, by_indentation);
-  if (known(samples, &meshes::PressSample::contact_radius))
+  add_samples(chapter, samples, indentation());
+  if (is_known(samples, radius))
     chapter.figures.push_back(
-        {"contact_radius",
-         760,
-         340,
-         1,
-         {curve_panel(samples, by_indentation, "contact radius",
-                      &meshes::PressSample::contact_radius, shown_units().length)}});
+        {"contact_radius", 760, 340, 1, {curve_panel(samples, indentation(), radius)}});
   if (!contact.empty()) chapter.figures.push_back(pressure_figure(contact, samples.back()));
   return written(std::move(chapter));
 }
@@ -225,10 +198,11 @@ Chapter sliding_chapter(const meshes::PressResponse& response) {
   ChapterData chapter("sliding");
   chapter["free"] = free;
   chapter["depth"] = length(response.depth());
-  add_samples(chapter, samples, by_displacement);
+  add_samples(chapter, samples, lateral_displacement());
   if (!free) {
-    Panel panel = curve_panel(samples, by_displacement, "lateral force",
-                              &meshes::PressSample::lateral_force_x, shown_units().force);
+    Panel panel =
+        curve_panel(samples, lateral_displacement(),
+                    {"Lateral force", &meshes::PressSample::lateral_force_x, shown_units().force});
     const double end = shown_units().length(samples.back().lateral_displacement);
     panel.x_range = Range{std::min(0.0, end), std::max(0.0, end)};
     chapter.figures = {{"lateral_force", 760, 420, 1, {panel}}};
@@ -254,50 +228,36 @@ std::string press_answer(const meshes::PressResponse& response) {
   return sentences("answer_press", words);
 }
 
+Table modes_table(const std::vector<VibrationMode>& modes) {
+  Table table{heads({"Mode", "Frequency\nHz", "Estimated error\nHz", "Motion", "Mass\nacross",
+                     "Mass\nalong", "Inertia\nabout the axis"})};
+  table.header[3].words = true;
+  for (const VibrationMode& mode : modes)
+    table.rows.push_back({std::to_string(mode.number), number(mode.frequency, 5),
+                          number(mode.error, 2), prose(mode.motion),
+                          percent_magnitude(mode.mass.x() + mode.mass.y()),
+                          percent_magnitude(mode.mass.z()), percent_magnitude(mode.inertia)});
+  table.drop_unknown(2);
+  return table;
+}
+
 Chapter modes_chapter(const std::vector<VibrationMode>& modes) {
   if (modes.empty()) return {};
-  const bool lattice = modes.front().of_lattice;
-  const bool errors = std::ranges::any_of(
-      modes, [](const VibrationMode& mode) { return std::isfinite(mode.error); });
-  Panel panel;
-  panel.x_label = "mode";
-  panel.y_label = "frequency [Hz]";
-  panel.key = "outside top center horizontal";
-  panel.x_range = Range{0.5, double(modes.size()) + 0.5};
-  panel.y_range = Range{0.0, meshes::unknown};
+  Panel panel{.x_label = "mode",
+              .y_label = "frequency [Hz]",
+              .x_range = Range{0.5, double(modes.size()) + 0.5},
+              .y_range = Range{0.0},
+              .key = "outside top center horizontal"};
   std::map<std::string, Series> kinds;
-  Table table;
-  table.header = {plain("Mode"), plain("Frequency", "Hz")};
-  if (errors) table.header.push_back(plain("Estimated error", "Hz"));
-  table.header.push_back({"Motion", "", Grade::none, true});
-  if (lattice)
-    for (const auto& [what, note] : {std::pair{"Mass", "across"}, std::pair{"Mass", "along"},
-                                     std::pair{"Inertia", "about the axis"}})
-      table.header.push_back(plain(what, note));
-  for (const VibrationMode& mode : modes) {
-    auto [kind, fresh] = kinds.try_emplace(mode.motion);
-    if (fresh) {
-      kind->second.label = mode.motion;
-      kind->second.style = numbered_style(kinds.size() - 1);
-      kind->second.style.line = false;
-    }
-    kind->second.x.push_back(mode.number);
-    kind->second.y.push_back(mode.frequency);
-    std::vector<Cell> row{plain(std::to_string(mode.number)), plain(number(mode.frequency, 5))};
-    if (errors) row.push_back(plain(number(mode.error, 2)));
-    row.push_back({mode.motion, "", Grade::none, true});
-    if (lattice) {
-      row.push_back(plain(percent_magnitude(mode.mass.x() + mode.mass.y())));
-      row.push_back(plain(percent_magnitude(mode.mass.z())));
-      row.push_back(plain(percent_magnitude(mode.inertia)));
-    }
-    table.rows.push_back(std::move(row));
-  }
+  for (const VibrationMode& mode : modes)
+    kinds
+        .try_emplace(mode.motion, Series{mode.motion, "", numbered_style(kinds.size()).as_points()})
+        .first->second.add(mode.number, mode.frequency);
   for (auto& [name, series] : kinds) panel.series.push_back(std::move(series));
   ChapterData chapter("modes");
-  chapter["lattice"] = lattice;
+  chapter["lattice"] = modes.front().of_lattice;
   chapter.figures = {{"frequencies", 760, 380, 1, {panel}}};
-  chapter.tables["modes"] = std::move(table);
+  chapter.tables["modes"] = modes_table(modes);
   return written(std::move(chapter));
 }
 

@@ -84,10 +84,10 @@ class Drawing {
         largest_force_(largest_force),
         largest_torque_(largest_torque),
         springs_(press.boundary_springs) {
-    Range height{meshes::unknown, meshes::unknown};
+    Range height;
     for (const BoundaryRow& row : press.boundary) {
       rest_.push_back(row.rest);
-      height = {std::fmin(height.from, row.rest.z()), std::fmax(height.to, row.rest.z())};
+      height.include(row.rest.z());
     }
     arrow_ = 1.2 * std::fmin(shape_.tip_radius, height.to - height.from);
     if (press.summary.obstacle) obstacle_ = obstacle_of(*press.summary.obstacle);
@@ -95,12 +95,8 @@ class Drawing {
   }
 
   Panel panel(const Snapshot& snapshot) const {
-    Panel panel;
-    panel.title = snapshot.moment;
+    Panel panel{.title = snapshot.moment, .bare = true, .equal_scales = true, .key = ""};
     if (std::isfinite(snapshot.time)) panel.title += fmt::format(", {:.4g} s", snapshot.time);
-    panel.equal_scales = true;
-    panel.key = "";
-    panel.bare = true;
     add_plane(panel, snapshot);
     if (shape_.is_dome()) add_rod(panel, snapshot);
     add_tip(panel, snapshot);
@@ -114,12 +110,11 @@ class Drawing {
     add_segment(series, camera_.x(from), camera_.y(from), camera_.x(to), camera_.y(to));
   }
   void add(Series& series, const Vector3& place) const {
-    series.x.push_back(camera_.x(place));
-    series.y.push_back(camera_.y(place));
+    series.add(camera_.x(place), camera_.y(place));
   }
 
   void add_plane(Panel& panel, const Snapshot& snapshot) const {
-    Series square{"", "plane", {}, {}, {}, thin("#999999", 1.0)};
+    Series square{"", "plane", thin("#999999", 1.0)};
     const Vector3& n = snapshot.normal;
     const Vector3 t1 = (Vector3::UnitX() - n * n.x()).normalized();
     const Eigen::Matrix3d axes = (Eigen::Matrix3d() << t1, t1.cross(n), n).finished();
@@ -166,8 +161,8 @@ class Drawing {
 
   /// Outside of the sleeve the rod's outline is solid, inside it is dashed.
   void add_rod(Panel& panel, const Snapshot& snapshot) const {
-    Series seen{"", "rod", {}, {}, {}, {"#222222", "", 1.6, 0, true}};
-    Series hidden{"", "rod inside the tip", {}, {}, {}, {"#222222", "(5,4)", 1.0, 0, true}};
+    Series seen{"", "rod", {"#222222", "", 1.6}};
+    Series hidden{"", "rod inside the tip", {"#222222", "(5,4)", 1.0}};
     const double top = -shape_.rod_length, rim = -shape_.sleeve_length;
     const Vector3 axis = snapshot.turned * Vector3::UnitZ();
     const Vector3 side = snapshot.turned.inverse() *
@@ -200,7 +195,7 @@ class Drawing {
 
   /// Springs on the viewer's side, and what the obstacle holds, which lies at the back of the tip.
   void add_tip(Panel& panel, const Snapshot& snapshot) const {
-    Series springs{"", "springs", {}, {}, {}, thin("#3f7f6f", 0.6)};
+    Series springs{"", "springs", thin("#3f7f6f", 0.6)};
     const auto visible = [&](std::size_t i) {
       return camera_.faces(snapshot.turned * outer_normal(rest_[i], centre_));
     };
@@ -209,7 +204,7 @@ class Drawing {
       if (i >= count || j >= count || !visible(i) || !visible(j)) continue;
       join(springs, snapshot.points[i], snapshot.points[j]);
     }
-    Series held{"", "held by the obstacle", {}, {}, {}, {held_colour, "", 1.0, 7, false, 0.3}};
+    Series held{"", "held by the obstacle", {held_colour, "", 1.0, 7, false, 0.3}};
     for (std::size_t i = 0; i < count; ++i)
       if (snapshot.held[i]) add(held, snapshot.points[i]);
     panel.series.push_back(std::move(springs));
@@ -223,7 +218,7 @@ class Drawing {
     const bool force = name == "force";
     if (!(largest > 0.0 && vector.norm() > 1e-3 * largest)) return;
     const Vector3 end = snapshot.endpoint + arrow_ / largest * vector;
-    Series shaft{"", name, {}, {}, {}, {colour, "", 2.4, 0, true}};
+    Series shaft{"", name, {colour, "", 2.4}};
     add(shaft, snapshot.endpoint);
     add(shaft, end);
     panel.arrows.push_back({shaft.x[0], shaft.y[0], shaft.x[1], shaft.y[1], colour, !force});
@@ -252,15 +247,12 @@ std::string wrench_text(const Snapshot& snapshot, double largest_torque) {
 
 /// The same part of space for all panels.
 void frame(Figure& figure) {
-  Range x{meshes::unknown, meshes::unknown}, y = x;
-  const auto include = [](Range& range, const std::vector<double>& values) {
-    for (const double value : values) {
-      range.from = std::fmin(range.from, value);
-      range.to = std::fmax(range.to, value);
-    }
-  };
+  Range x, y;
   for (const Panel& panel : figure.panels)
-    for (const Series& series : panel.series) include(x, series.x), include(y, series.y);
+    for (const Series& series : panel.series) {
+      for (const double value : series.x) x.include(value);
+      for (const double value : series.y) y.include(value);
+    }
   const double padding = 0.05 * (y.to - y.from);
   for (Panel& panel : figure.panels) {
     panel.x_range = Range{x.from - padding, x.to + padding};

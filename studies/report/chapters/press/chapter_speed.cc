@@ -13,71 +13,51 @@ bool has_reference(const MovingPress& press) {
   return !press.reference.empty() && !press.response.empty();
 }
 
-/// Relative differences at the samples of the continuum [%].
-Series error_series(const MovingPress& press, const Style& style) {
-  Series series{press.label, "", {}, {}, {}, style};
-  for (const meshes::PressSample& sample : press.reference.pressing()) {
-    series.x.push_back(shown_units().length(sample.indentation));
-    series.y.push_back(100.0 *
-                       (force_at(press.response, sample.indentation) / sample.normal_force - 1.0));
-  }
-  return series;
-}
-
-Series force_series(const meshes::PressResponse& response, const std::string& label,
-                    const Style& style) {
-  Series series{label, "", {}, {}, {}, style};
-  for (const meshes::PressSample& sample : response.pressing()) {
-    series.x.push_back(shown_units().length(sample.indentation));
-    series.y.push_back(shown_units().force(sample.normal_force));
-  }
-  return series;
+/// Relative difference at a sample of the continuum.
+double error_at(const MovingPress& press, const meshes::PressSample& sample) {
+  return force_at(press.response, sample.indentation) / sample.normal_force - 1.0;
 }
 
 Figure force_figure(const std::vector<MovingPress>& presses) {
-  Panel force, error;
-  force.x_label = error.x_label = shown_units().length.label("indentation");
-  force.y_label = shown_units().force.label("normal force");
-  error.y_label = "force error [%]";
-  error.key = "";  // the colours of the curves above
-  error.y_range = Range{-1.5, 1.5};
+  Panel force = over_indentation(shown_units().force.label("normal force"));
+  Panel error = over_indentation("force error [%]", "");  // the colours of the curves above
   error.band = Band{-1.0, 1.0};
+  double most = 1.5;
   std::size_t count = 0;
   for (const MovingPress& press : presses) {
     if (!has_reference(press)) continue;
-    Style style = numbered_style(count++);
-    Style points = style;
-    points.line = false;
-    force.series.push_back(force_series(press.reference, "continuum, " + press.label, points));
-    Style line = style;
-    line.point = 0;
+    const Style style = numbered_style(count++);
+    Style line = style.as_line();
     line.dash.clear();
-    force.series.push_back(force_series(press.response, "lattice, " + press.label, line));
-    error.series.push_back(error_series(press, style));
-    for (const double off : error.series.back().y)
-      error.y_range->to = std::fmax(error.y_range->to, 1.1 * std::abs(off));
-    error.y_range->from = -error.y_range->to;
+    const auto samples = press.reference.pressing();
+    force.series.push_back(
+        force_curve("continuum, " + press.label, "", style.as_points(), samples));
+    force.series.push_back(
+        force_curve("lattice, " + press.label, "", line, press.response.pressing()));
+    error.series.push_back(
+        curve(press.label, "", style, samples,
+              in(shown_units().length, &meshes::PressSample::indentation),
+              [&](const meshes::PressSample& sample) { return 100.0 * error_at(press, sample); }));
+    for (const double off : error.series.back().y) most = std::fmax(most, 1.1 * std::abs(off));
     const double depth = shown_units().length(press.reference.depth());
     if (!force.x_range || force.x_range->to < depth) force.x_range = Range{0.0, 1.02 * depth};
   }
   error.x_range = force.x_range;
+  error.y_range = Range{-most, most};
   return {"force_at_speed", 860, 720, 1, {force, error}};
 }
 
 Table error_table(const std::vector<MovingPress>& presses) {
-  Table table;
-  table.graded = true;
-  table.header = {plain("Press")};
+  Table table{{"Press"}, true};
   for (const MovingPress& press : presses) {
     if (!has_reference(press)) continue;
     if (table.header.size() == 1)
       for (const meshes::PressSample& sample : press.reference.pressing())
-        table.header.push_back(plain("F", shown_units().length.text(sample.indentation)));
-    std::vector<Cell> row{plain(press.label)};
+        table.header.emplace_back("F", shown_units().length.text(sample.indentation));
+    std::vector<Cell> row{press.label};
     for (const meshes::PressSample& sample : press.reference.pressing()) {
-      const double f = force_at(press.response, sample.indentation);
-      const double off = f / sample.normal_force - 1.0;
-      row.push_back({number(shown_units().force(f)), percent(off), grade(off)});
+      const double f = force_at(press.response, sample.indentation), off = error_at(press, sample);
+      row.emplace_back(number(shown_units().force(f)), percent(off), grade(off));
     }
     row.resize(table.header.size());
     table.rows.push_back(std::move(row));
@@ -87,13 +67,10 @@ Table error_table(const std::vector<MovingPress>& presses) {
 
 /// The presses that are compared with others, and by how much their forces differ at most.
 Table change_table(const std::vector<MovingPress>& presses) {
-  Table table;
-  table.header = {plain("Press"), plain("compared with"), plain("Largest difference")};
-  for (const MovingPress& press : presses) {
-    if (press.beside.empty()) continue;
-    table.rows.push_back(
-        {plain(press.label), plain(press.beside), plain(percent_magnitude(press.change))});
-  }
+  Table table{heads({"Press", "compared with", "Largest difference"})};
+  for (const MovingPress& press : presses)
+    if (!press.beside.empty())
+      table.rows.push_back({press.label, press.beside, percent_magnitude(press.change)});
   return table;
 }
 

@@ -1,6 +1,7 @@
 /// The chapters on presses, vibrations and grasps. One without blocks is left out of the page.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,21 @@ Chapter control_chapter(const RunData& run);
 Chapter snapshots_chapter(const RunData& run);
 /// The mesh and the lattices.
 Chapter pictures_chapter(const RunData& run);
+using SampleRange = std::span<const meshes::PressSample>;
+/// A quantity of samples, as tables and figures show it.
+struct SampleColumn {
+  const char* title;
+  double meshes::PressSample::*value;
+  ShownUnit unit;
+  const char* direction = "";  ///< before the unit
+};
+/// What samples are ordered by.
+SampleColumn indentation();
+SampleColumn lateral_displacement();
+/// Force, error, lateral force, contact radius and peak pressure, as far as they are known.
+Table sample_table(SampleRange samples, const SampleColumn& over);
+/// Stages of a program: when they were, force at both ends.
+Table stage_table(const std::vector<StageEntry>& stages);
 /// Force, contact radius and, from contact.csv, pressure of one press; without blocks when it has
 /// no sample. Of a program the force is drawn to its end, from trace.csv where there is one.
 Chapter press_chapter(const meshes::PressResponse& response, const std::vector<ContactRow>& contact,
@@ -34,12 +50,12 @@ Chapter sliding_chapter(const meshes::PressResponse& response);
 /// Its force at full depth in a sentence, and that at the end of a lateral motion in another.
 std::string press_answer(const meshes::PressResponse& response);
 /// Frequencies and kinds of motion from modes.csv; without blocks when it is empty.
+Table modes_table(const std::vector<VibrationMode>& modes);
 Chapter modes_chapter(const std::vector<VibrationMode>& modes);
 std::string modes_answer(const std::vector<VibrationMode>& modes);
 
-/// The result in one paragraph, and as a table in plain text.
+/// The result in one paragraph.
 std::string control_answer(const std::vector<MovingPress>& presses);
-std::string control_text(const std::vector<MovingPress>& presses);
 
 /// What `presses` did under their controllers; a chapter without blocks when none has a trace.
 Chapter control_chapter(const std::vector<MovingPress>& presses);
@@ -52,14 +68,12 @@ Chapter speed_chapter(const std::vector<MovingPress>& presses);
 /// Whether `presses` differ in how time is integrated: their rods are prescribed, nothing is
 /// controlled.
 bool compares_integrators(const std::vector<MovingPress>& presses);
-/// The same three for them; the chapter has no blocks for presses of another kind.
+/// The same for them; the chapter has no blocks for presses of another kind.
 std::string integrators_answer(const std::vector<MovingPress>& presses);
-std::string integrators_text(const std::vector<MovingPress>& presses);
 Chapter integrators_chapter(const std::vector<MovingPress>& presses);
 
-/// The result in one paragraph, and as a table in plain text.
+/// The result in one paragraph.
 std::string grasp_answer(const std::vector<GraspRun>& grasps);
-std::string grasp_text(const std::vector<GraspRun>& grasps);
 /// Fate against grip force, slip while the grip falls, which way friction points, one grasp in
 /// time; without blocks when there are no grasps.
 Chapter grasp_chapter(const std::vector<GraspRun>& grasps);

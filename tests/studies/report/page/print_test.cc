@@ -34,7 +34,7 @@ FigureBlock figure(const std::string& name, int height) {
   Panel panel;
   panel.x_label = "x";
   panel.y_label = "y";
-  panel.series.push_back({"line", "", {0.0, 1.0}, {0.0, 1.0}, {}, {}});
+  panel.series.push_back({"line", "", {}, {0.0, 1.0}, {0.0, 1.0}});
   return {{name, 760, height, 1, {panel}}, "A line", "From one corner to the other."};
 }
 

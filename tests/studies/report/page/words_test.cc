@@ -33,7 +33,7 @@ Figure line(const std::string& name) {
 
 Table one_row() {
   Table table;
-  table.rows = {{plain("row")}};
+  table.rows.push_back({"row"});
   return table;
 }
 

@@ -1,0 +1,57 @@
+#include "studies/report/page/rendering.h"
+
+#include <fmt/format.h>
+
+#include <kainjow/mustache.hpp>
+#include <stdexcept>
+
+namespace fingertip::studies::report::inline page {
+namespace {
+
+using Filling = kainjow::mustache::data;
+
+Filling filling_of(const Words& words);
+
+Filling filling_of(const Words::Value& value) {
+  if (const bool* condition = std::get_if<bool>(&value)) return *condition;
+  if (const std::string* text = std::get_if<std::string>(&value))
+    return text->empty() ? Filling(false) : Filling(*text);
+  Filling list{kainjow::mustache::list()};
+  for (const Words& entry : std::get<WordList>(value)) list << filling_of(entry);
+  return list;
+}
+
+Filling filling_of(const Words& words) {
+  Filling object;
+  for (const auto& [name, value] : words.values) object.set(name, filling_of(value));
+  return object;
+}
+
+/// Where kainjow shows nothing for an unknown name, this one says so.
+class StrictNames : public kainjow::mustache::context<std::string> {
+ public:
+  StrictNames(const Filling& root, const std::string& where) : context(&root), where_(where) {}
+
+  const Filling* get(const std::string& name) const override {
+    if (const Filling* found = context::get(name)) return found;
+    throw std::logic_error(fmt::format("{}.mustache: no value for {}", where_, name));
+  }
+
+ private:
+  const std::string& where_;
+};
+
+}  // namespace
+
+std::string rendered(std::string_view text, const Words& words, const std::string& name,
+                     const std::function<std::string(const std::string&)>& escape) {
+  kainjow::mustache::mustache view{std::string(text)};
+  if (!view.is_valid())
+    throw std::logic_error(fmt::format("{}.mustache: {}", name, view.error_message()));
+  if (escape) view.set_custom_escape(escape);
+  const Filling root = filling_of(words);
+  StrictNames names(root, name);
+  return view.render(names);
+}
+
+}  // namespace fingertip::studies::report::inline page
