@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include "studies/bench/bench.h"
+#include "studies/report/chapters/bench/bench_page.h"
+#include "studies/report/page/terminal.h"
 
 namespace fingertip::studies::inline bench {
 
@@ -10,12 +12,6 @@ using nlohmann::ordered_json;
 
 std::string cell(const ordered_json& value, const char* form) {
   return value.is_number() ? fmt::format(fmt::runtime(form), value.get<double>()) : "-";
-}
-
-/// How much of the tip was computed.
-std::string part_of(const ordered_json& press) {
-  const int parts = press.at("parts").get<int>();
-  return parts == 1 ? "whole" : fmt::format("1/{}", parts);
 }
 
 }  // namespace
@@ -30,19 +26,8 @@ std::string bench_text(const ordered_json& bench) {
     text += fmt::format(
         "{:<20}{:>10} ns per spring and step, {:.0f} masses\n", peer.at("name").get<std::string>(),
         cell(peer.at("ns_per_spring_step"), "{:.2f}"), peer.at("masses").get<double>());
-  text += fmt::format("{:<12}{:<18}{:<6}{:>6}{:>9}{:>14}{:>14}\n", "model", "integrator", "tip",
-                      "R/a", "threads", "real time", "force error");
-  for (const ordered_json& press : bench.at("press")) {
-    text +=
-        fmt::format("{:<12}{:<18}{:<6}{:>6.3g}{:>9}{:>14}{:>12} %\n",
-                    press.at("model").get<std::string>(), press.at("integrator").get<std::string>(),
-                    part_of(press), 1.0 / press.at("spacing_over_R").get<double>(),
-                    press.at("threads").get<int>(), cell(press.at("real_time_factor"), "{:.4f}"),
-                    press.at("worst_force_error").is_number()
-                        ? fmt::format("{:.2f}", 100.0 * press.at("worst_force_error").get<double>())
-                        : "-");
-  }
-  return text;
+  return text +
+         report::tables_text(report::pace_chapter(JsonEntry(bench, "bench.json")), {"presses"});
 }
 
 }  // namespace fingertip::studies::inline bench

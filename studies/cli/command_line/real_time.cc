@@ -18,6 +18,8 @@
 #include "studies/jobs/json_file.h"
 #include "studies/presses/press_job.h"
 #include "studies/presses/press_setup.h"
+#include "studies/report/chapters/press/press_chapters.h"
+#include "studies/report/page/terminal.h"
 
 namespace fingertip::studies::inline cli::inline command_line {
 
@@ -97,20 +99,6 @@ ForetoldModel this_press(const meshes::PressResponse& response) {
                ? response.normal_force_at(std::min(depth, response.depth()))
                : meshes::unknown;
   });
-}
-
-std::string errors_text(const TransferObstacleEntry& errors) {
-  const ShownUnit& length = shown_units().length;
-  std::string text = fmt::format("{:<18}", length.label("indentation"));
-  for (const double depth : errors.indentation)
-    text += fmt::format("{:>10}", length.decimals(depth));
-  for (const TransferModelEntry& model : errors.models) {
-    text += fmt::format("\n{:<18}", model.model);
-    for (const double error : model.error)
-      text +=
-          fmt::format("{:>10}", std::isnan(error) ? "?" : fmt::format("{:+.1f} %", 100.0 * error));
-  }
-  return text + "\n";
 }
 
 }  // namespace
@@ -200,7 +188,8 @@ std::string RealTimeRun::text() const {
                         record.slowest_factor, record.expected_factor,
                         record.slowest_factor < 1.0 ? ": NOT KEPT UP" : "");
   text += "force error " + record.force_error_of + "\n";
-  if (record.force_error) text += errors_text(*record.force_error);
+  if (record.force_error)
+    text += report::tables_text(report::real_time_chapter(record), {"errors"});
   return text;
 }
 

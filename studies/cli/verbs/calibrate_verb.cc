@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/cli/verbs/fit_screen.h"
 #include "studies/cli/verbs/verbs.h"
-#include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
 #include "studies/fits/runs/calibration_stages.h"
 #include "studies/jobs/json_file.h"
+#include "studies/report/report.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
 
@@ -27,46 +25,6 @@ bool run_stages(CalibrationStages& stages, Session& session) {
     for (const JobResult& result : results) computed = computed || !result.reused;
   }
   return computed;
-}
-
-void print_moduli(const ordered_json& content) {
-  const ShownUnit& stress = shown_units().stress;
-  fmt::print("{:<22}{:>14}{:>14}\n", "", "target", "achieved");
-  const auto& target = content["target"];
-  const auto& achieved = content["achieved"];
-  const auto row = [&](const char* name, const char* wanted, const char* reached) {
-    fmt::print("{:<22}{:>14.6g}{:>14.6g}\n", fmt::format("{} [{}]", name, stress.ascii),
-               stress(target[wanted].get<double>()), stress(achieved[reached].get<double>()));
-  };
-  row("E_100", "youngs_modulus", "youngs_modulus_100");
-  row("E_110", "youngs_modulus", "youngs_modulus_110");
-  row("E_111", "youngs_modulus", "youngs_modulus_111");
-  row("G", "shear_modulus", "shear_modulus");
-  row("K", "bulk_modulus", "bulk_modulus");
-  fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "nu_100", target["poissons_ratio"].get<double>(),
-             achieved["poissons_ratio_100"].get<double>());
-  fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "anisotropy A", 1.0,
-             achieved["anisotropy"].get<double>());
-}
-
-void print_parameters(const ordered_json& content) {
-  fmt::print("{:<24}{:>14}{:>14}{:>14}  {}\n", "", "estimate", "95 % from", "to", "unit");
-  const bool ratio_bound = !content.value("poissons_ratio_bound", ordered_json()).is_null();
-  for (const ordered_json& parameter : content["parameters"]) {
-    const std::string si = parameter["unit"];
-    const auto [value, unit] = as_shown(number_of(parameter["estimate"]), si);
-    const double lower = as_shown(number_of(parameter["lower"]), si).first,
-                 upper = as_shown(number_of(parameter["upper"]), si).first;
-    // Where Poisson's ratio has stopped at a bound neither modulus has an interval of its own.
-    const bool open =
-        calibration::is_open(si, value, lower, upper) ||
-        (ratio_bound && si == "Pa" && parameter["name"].get<std::string>() != "modulus");
-    const auto end = [&](double number) {
-      return open ? std::string("open") : fmt::format("{:.6g}", number);
-    };
-    fmt::print("{:<24}{:>14.6g}{:>14}{:>14}  {}\n", parameter["name"].get<std::string>(), value,
-               end(lower), end(upper), unit);
-  }
 }
 
 /// What a press takes: spring constants, or the network's moduli.
@@ -138,16 +96,9 @@ int run_calibrate(const CommandLine& line) {
     if (line.quiet) return verdict_of(content, written);
     fmt::print("{}\n\n",
                in_shown_units(content["statement"].get<std::string>(), Spelling::terminal));
-    if (content.contains("parameters")) {
-      print_parameters(content);
-    } else {
-      print_moduli(content);
-    }
+    fmt::print("{}", report::verdict_text(folder));
     print_rubber(content);
     print_constants(content);
-    if (content.contains("next"))
-      print_next(struct_of<std::vector<calibration::NextEntry>>(
-          JsonEntry(content["next"], folder / "calibration.json")));
     if (!computed) fmt::print("(result from an earlier run with the same input)\n");
     fmt::print("run folder: {}\n", folder.string());
     return verdict_of(content, written);

@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/files/fit_file.h"
-
 namespace fingertip::studies::inline cli::inline verbs {
 
 /// A value as the table of units shows it, and its unit.
@@ -15,8 +13,5 @@ std::pair<double, std::string> as_shown(double value, const std::string& si);
 /// Exit code of a fit that failed its own tests, with what that means on stderr; 0 without
 /// `failed`. `written`: its material.toml is there.
 int verdict(const std::vector<std::string>& failed, bool converged, bool written);
-
-/// A row per further measurement: by how many times it would narrow the interval of each parameter.
-void print_next(const std::vector<calibration::NextEntry>& next);
 
 }  // namespace fingertip::studies::inline cli::inline verbs

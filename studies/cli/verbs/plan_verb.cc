@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <map>
+
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/cli/verbs/fit_screen.h"
 #include "studies/cli/verbs/verbs.h"
@@ -9,6 +11,8 @@
 #include "studies/fits/runs/plan_job.h"
 #include "studies/fits/setup/configured_fit.h"
 #include "studies/jobs/json_file.h"
+#include "studies/report/chapters/fit/calibration_chapters.h"
+#include "studies/report/page/terminal.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
 
@@ -16,25 +20,6 @@ std::pair<double, std::string> as_shown(double value, const std::string& si) {
   const ShownUnit* unit = shown_units().of(si);
   return unit == nullptr ? std::pair(value, si)
                          : std::pair((*unit)(value), std::string(unit->ascii));
-}
-
-void print_next(const std::vector<calibration::NextEntry>& next) {
-  if (next.empty()) return;
-  fmt::print("\nA further measurement would make the intervals so many times narrower:\n");
-  const auto table = std::ranges::find_if(
-      next, [](const calibration::NextEntry& entry) { return !entry.parameters.empty(); });
-  if (table != next.end()) {
-    fmt::print("{:<12}", "");
-    for (const auto& parameter : table->parameters) fmt::print("{:>26.24}", parameter.name);
-    fmt::print("\n");
-  }
-  for (const calibration::NextEntry& entry : next) {
-    fmt::print("{:<12}", entry.name);
-    for (const auto& parameter : entry.parameters) fmt::print("{:>26.2f}", parameter.times);
-    fmt::print("  {}\n",
-               in_shown_units(entry.failure.empty() ? entry.press : "not known: " + entry.failure,
-                              Spelling::terminal));
-  }
 }
 
 namespace {
@@ -46,14 +31,20 @@ void print_plan(const PlanFile& plan) {
                in_shown_units(press.condition, Spelling::terminal), press.points,
                shown_units().length.text(press.depth),
                shown_units().force.text(press.largest_force));
-  fmt::print("\n{:<24}{:>14}{:>14}{:>14}  {}\n", "", "value", "95 % from", "to", "unit");
+  report::Table table{report::heads({"Parameter", "Value", "95 % from", "to", "Unit"})};
+  std::map<std::string, std::string> units;
   for (const PlannedParameter& parameter : plan.parameters) {
-    const auto [value, unit] = as_shown(parameter.value, parameter.unit);
-    fmt::print("{:<24}{:>14.6g}{:>14.6g}{:>14.6g}  {}\n", parameter.name, value,
-               as_shown(parameter.lower, parameter.unit).first,
-               as_shown(parameter.upper, parameter.unit).first, unit);
+    const auto shown = [&](double value) {
+      return report::number(as_shown(value, parameter.unit).first);
+    };
+    table.rows.push_back({parameter.name, shown(parameter.value), shown(parameter.lower),
+                          shown(parameter.upper), as_shown(0.0, parameter.unit).second});
+    units[parameter.name] = parameter.unit;
   }
-  print_next(plan.next);
+  fmt::print("\n{}", report::table_text(table));
+  if (!plan.next.empty())
+    fmt::print("\nA further measurement would make the intervals so many times narrower:\n{}",
+               report::table_text(report::next_table(plan.next, units)));
 }
 
 }  // namespace

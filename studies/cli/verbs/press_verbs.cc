@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include "fem_reference/job/run_tables.h"
@@ -24,41 +23,12 @@
 #include "studies/presses/program_summary.h"
 #include "studies/presses/reference_job.h"
 #include "studies/presses/tracking.h"
+#include "studies/report/chapters/press/press_chapters.h"
+#include "studies/report/page/terminal.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
 
 namespace {
-
-/// A table of samples by `place`: force, error, contact and, with `lateral`, lateral force; no
-/// column that nobody knows.
-void print_samples(std::span<const meshes::PressSample> samples, const char* ordered_by,
-                   double meshes::PressSample::*place, bool lateral) {
-  using Sample = meshes::PressSample;
-  struct Column {
-    std::string title;
-    double Sample::*value;
-    ShownUnit unit;
-  };
-  const ShownUnit &length = shown_units().length, &force = shown_units().force;
-  std::vector<Column> columns{{length.label(ordered_by), place, length},
-                              {force.label("force"), &Sample::normal_force, force},
-                              {force.label("error"), &Sample::force_error, force},
-                              {length.label("contact"), &Sample::contact_radius, length}};
-  if (lateral) columns.push_back({force.label("lateral"), &Sample::lateral_force_x, force});
-  std::erase_if(columns, [&](const Column& column) {
-    return std::ranges::all_of(
-        samples, [&](const Sample& sample) { return std::isnan(sample.*column.value); });
-  });
-  for (const Column& column : columns) fmt::print("{:>14}", column.title);
-  fmt::print("\n");
-  for (const Sample& sample : samples) {
-    for (const Column& column : columns) {
-      const double value = sample.*column.value;
-      fmt::print("{:>14}", std::isnan(value) ? "" : column.unit.decimals(value));
-    }
-    fmt::print("\n");
-  }
-}
 
 /// The curve at the wanted depths, for a terminal.
 void print_depths(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
@@ -70,16 +40,16 @@ void print_depths(const meshes::PressResponse& response, const meshes::PressProt
         });
     if (found != response.pressing().end()) wanted.push_back(*found);
   }
-  print_samples(wanted, "depth", &meshes::PressSample::indentation,
-                protocol.lateral != 0.0 && !protocol.slides_after());
+  fmt::print("{}", report::table_text(report::sample_table(wanted, report::indentation())));
 }
 
 /// The curve at the wanted depths, and the lateral motion that followed, if one did.
 void print_response(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
   print_depths(response, protocol);
   if (response.sliding().empty()) return;
-  fmt::print("then along the plane at {}:\n", shown_units().length.text(response.depth()));
-  print_samples(response.sliding(), "lateral", &meshes::PressSample::lateral_displacement, true);
+  fmt::print(
+      "then along the plane at {}:\n{}", shown_units().length.text(response.depth()),
+      report::table_text(report::sample_table(response.sliding(), report::lateral_displacement())));
 }
 
 /// "continuum, finite strain (law A), stick contact, static"
@@ -93,19 +63,9 @@ std::string heading(const fem_reference::ReferenceJob& reference) {
                      fem_reference::name(reference.analysis));
 }
 
-/// Frequencies and kinds of motion: the lattice tells these with the share of mass that moves along
-/// an axis, the continuum by symmetry about x = 0 and y = 0.
 void print_frequencies(const std::filesystem::path& folder) {
   const auto modes = vibration_modes(meshes::read_csv(folder / "modes.csv"));
-  const bool lattice = !modes.empty() && modes.front().of_lattice;
-  fmt::print("{:>6}{:>18}  {:<32}{}\n", "mode", "frequency [Hz]", "motion",
-             lattice ? "mass that answers across, along the axis" : "");
-  for (const VibrationMode& mode : modes) {
-    fmt::print("{:>6}{:18.4f}  {:<32}{}\n", mode.number, mode.frequency, mode.motion,
-               lattice ? fmt::format("{:.1f} %, {:.1f} %", 100.0 * (mode.mass.x() + mode.mass.y()),
-                                     100.0 * mode.mass.z())
-                       : "");
-  }
+  fmt::print("{}", report::table_text(report::modes_table(modes)));
 }
 
 /// Largest force_error over normal_force, and where; relative NaN where one is not known.
@@ -174,25 +134,7 @@ void print_control(const PressSummary& summary) {
 
 /// How each stage of a program went, and what the press cost; NaN: not known, or no loop [J].
 void print_program(const std::vector<StageEntry>& program, double work_in, double loop_area) {
-  const ShownUnits& units = shown_units();
-  double largest = 0.0;
-  for (const StageEntry& stage : program)
-    largest = std::fmax(largest, std::fmax(stage.begin_force, stage.end_force));
-  // What is no more than round-off is not told by its digits.
-  const auto known = [&](double force) {
-    if (std::isnan(force)) return std::string("?");
-    return units.force.text(std::abs(force) < 1e-6 * largest ? 0.0 : force);
-  };
-  for (std::size_t i = 0; i < program.size(); ++i) {
-    const StageEntry& stage = program[i];
-    std::string text = (stage.moves() ? "to " : "hold at ") + units.length.text(stage.indentation);
-    if (!std::isnan(stage.speed)) text += " at " + units.speed.text(stage.speed);
-    if (!std::isnan(stage.end)) text += fmt::format(", {:.4g} to {:.4g} s", stage.begin, stage.end);
-    text += fmt::format(": force from {} to {}", known(stage.begin_force), known(stage.end_force));
-    if (!std::isnan(stage.relaxation))
-      text += fmt::format(", relaxed by {:.3g} %", 100.0 * stage.relaxation);
-    fmt::print("stage {}: {}\n", i + 1, text);
-  }
+  if (!program.empty()) fmt::print("{}", report::table_text(report::stage_table(program)));
   if (!std::isnan(work_in)) fmt::print("work put in: {:.4g} mJ\n", 1e3 * work_in);
   if (!std::isnan(loop_area))
     fmt::print("work not given back (area of the loop): {:.4g} mJ\n", 1e3 * loop_area);

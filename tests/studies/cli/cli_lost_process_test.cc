@@ -56,7 +56,7 @@ class LostProcess : public testing::Test {
                          const std::string& advice = "--out run --resume auto") const {
     EXPECT_TRUE(says(failed.err, {"run is kept", advice}));
     EXPECT_TRUE(says(place_.text("run/response.csv"), "0.001,0.1"));
-    EXPECT_TRUE(says(reference(" --resume auto", 0).out, "300.0000"));
+    EXPECT_TRUE(says(reference(" --resume auto", 0).out, "300.0"));
     EXPECT_EQ(status(), "finished");
     EXPECT_EQ(place_.text("run/attempts"), "started\nstarted\n");
     EXPECT_FALSE(place_.has("run/checkpoint"));

@@ -83,7 +83,7 @@ TEST(Plan, SaysWhatTheFitWillSay) {
                 named(plan["next"], name)["parameters"][0]["times"].get<double>(), 0.05)
         << name;
   EXPECT_TRUE(says(fit["statement"], "would tell most"));
-  EXPECT_TRUE(says(fitted.out, "A further measurement would make the intervals"));
+  EXPECT_TRUE(says(fitted.out, "What to measure next."));
 }
 
 /// What is told of a further press is what the plan with both presses comes to.

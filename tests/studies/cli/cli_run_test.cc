@@ -207,7 +207,7 @@ TEST(Run, APressInStagesTellsRelaxationAndLoop) {
                        program + ", " + last + "]"});
   };
   EXPECT_TRUE(says(press("one", "rubber.retardation_time=1 ms").out,
-                   {"stage 2: hold at 1 mm, ", "relaxed by ", "(area of the loop)"}));
+                   {"hold ", "Relaxed\n", "(area of the loop)"}));
   const PressResponse response = folder.response("one");
   EXPECT_EQ(response.pressing().back().indentation, 1e-3);
   ASSERT_EQ(response.following().size(), 20U);
