@@ -21,6 +21,7 @@ namespace {
 /// The same fit, from `estimates` alone.
 CurveFitOptions warm_started(CurveFitOptions options, const VectorXd& estimates) {
   options.other_starts.clear();
+  options.reserve_starts.clear();
   for (std::size_t i = 0; i < options.free.size(); ++i) {
     FreeParameter& free = options.free[i];
     free.scale = size_of(free);
@@ -154,10 +155,9 @@ std::vector<LeftOut> leave_one_out(const std::vector<Curve>& curves,
   return results;
 }
 
-std::vector<VectorXd> scaled_starts(const std::vector<Curve>& curves,
-                                    const std::vector<ForwardModel*>& models,
-                                    const CurveFitOptions& options,
-                                    std::vector<double> poissons_ratios) {
+ScaledStarts scaled_starts(const std::vector<Curve>& curves,
+                           const std::vector<ForwardModel*>& models, const CurveFitOptions& options,
+                           std::vector<double> poissons_ratios) {
   check_curve_fit(curves, options);
   check_ratios(options, poissons_ratios);
   const auto [e, g] = *places_of_moduli(options);
@@ -177,15 +177,19 @@ std::vector<VectorXd> scaled_starts(const std::vector<Curve>& curves,
       continue;
     }
   }
-  std::vector<ScannedStart> valleys;
-  for (std::size_t i = 0; i < scan.size(); ++i)
-    if ((i == 0 || scan[i].loss < scan[i - 1].loss) &&
-        (i + 1 == scan.size() || scan[i].loss <= scan[i + 1].loss))
-      valleys.push_back(scan[i]);
-  std::ranges::stable_sort(valleys, {}, &ScannedStart::loss);
-  std::vector<VectorXd> starts;
-  for (const ScannedStart& valley : valleys) starts.push_back(valley.parameters);
-  return starts;
+  std::vector<ScannedStart> valleys, others;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const bool valley = (i == 0 || scan[i].loss < scan[i - 1].loss) &&
+                        (i + 1 == scan.size() || scan[i].loss <= scan[i + 1].loss);
+    (valley ? valleys : others).push_back(scan[i]);
+  }
+  const auto by_loss = [](std::vector<ScannedStart>& starts) {
+    std::ranges::stable_sort(starts, {}, &ScannedStart::loss);
+    std::vector<VectorXd> sorted;
+    for (const ScannedStart& start : starts) sorted.push_back(start.parameters);
+    return sorted;
+  };
+  return {by_loss(valleys), by_loss(others)};
 }
 
 std::optional<VectorXd> scaled_start(const std::vector<Curve>& curves,

@@ -81,16 +81,20 @@ ProfileInterval profile_interval(const std::vector<Curve>& curves,
                                  const CurveFitOptions& options, const CurveFit& fit,
                                  std::size_t place, double half_width);
 
-/// Where to start a fit of E and G: at every Poisson's ratio of `poissons_ratios` the rubber whose
-/// values meet the curves best, found from one evaluation, because forces and stresses at given
-/// kinematics are proportional to (E, G) at held nu. Of these the valleys are returned, whose loss
-/// is below that of their neighbours in nu, the deepest first. Other parameters keep their start.
-/// Ratios at which a model has no answer are left out, moduli are cut off at their bounds. Throws
-/// InvalidInput unless E and G both are free, and for ratios outside of (-1, 1/2).
-std::vector<Eigen::VectorXd> scaled_starts(const std::vector<Curve>& curves,
-                                           const std::vector<ForwardModel*>& models,
-                                           const CurveFitOptions& options,
-                                           std::vector<double> poissons_ratios);
+/// Where to start a fit of E and G, the least loss first.
+struct ScaledStarts {
+  std::vector<Eigen::VectorXd> valleys;  ///< their loss is below that of their neighbours in nu
+  std::vector<Eigen::VectorXd> others;
+};
+
+/// At every Poisson's ratio of `poissons_ratios` the rubber whose values meet the curves best,
+/// found from one evaluation, because forces and stresses at given kinematics are proportional to
+/// (E, G) at held nu. Other parameters keep their start. Ratios at which a model has no answer are
+/// left out, moduli are cut off at their bounds. Throws InvalidInput unless E and G both are free,
+/// and for ratios outside of (-1, 1/2).
+ScaledStarts scaled_starts(const std::vector<Curve>& curves,
+                           const std::vector<ForwardModel*>& models, const CurveFitOptions& options,
+                           std::vector<double> poissons_ratios);
 
 /// The start with all stiffnesses among the parameters (what is in Pa or N/m) multiplied by one
 /// factor, the one that meets the curves best; none where the values are not proportional to them

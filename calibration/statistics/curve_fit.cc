@@ -23,24 +23,6 @@ namespace {
 /// Less than one good fit in a hundred has so large a chi-square.
 constexpr double improbable = 0.01;
 
-/// From the start, then from the others, each with its share of the evaluations that are left.
-/// Without an answer at one of the others there is no minimum from there.
-std::vector<Minimum> minima_from(CurveResiduals& residuals, const CurveFitOptions& options) {
-  std::vector<VectorXd> starts = options.other_starts;
-  starts.insert(starts.begin(), start_of(options));
-  std::vector<Minimum> minima;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const int used = residuals.evaluations(), shares = int(starts.size() - i);
-    residuals.allow(used + std::max(1, (options.max_evaluations - used) / shares));
-    try {
-      minima.push_back(minimise(residuals, options, starts[i]));
-    } catch (const meshes::NotConverged&) {
-      if (i == 0) throw;
-    }
-  }
-  return minima;
-}
-
 /// The least loss; a minimum rather than what a search that ran out has seen less than a tenth of a
 /// standard error below it.
 const Minimum& best_of(const std::vector<Minimum>& minima, const CurveResiduals& residuals) {
@@ -50,6 +32,51 @@ const Minimum& best_of(const std::vector<Minimum>& minima, const CurveResiduals&
   for (const Minimum& minimum : minima)
     if (!best->converged && minimum.converged && minimum.loss <= close) best = &minimum;
   return *best;
+}
+
+/// Poisson's ratio where E and G are sought and it is at a bound.
+std::optional<double> ratio_bound(const VectorXd& estimates, const CurveFitOptions& options) {
+  const FitCoordinates coordinates(options);
+  const auto places = coordinates.rubber();
+  if (!places) return std::nullopt;
+  const auto [e, g] = *places;
+  const double x = coordinates.from(estimates)(e);
+  if (x > 1.001 * coordinates.lower()(e) && x < (1.0 - 1e-9) * coordinates.upper()(e))
+    return std::nullopt;
+  return estimates(e) / (2.0 * estimates(g)) - 1.0;
+}
+
+/// At a bound of Poisson's ratio, and where sigma tells it the data are not met there.
+bool ends_badly(const Minimum& minimum, const CurveResiduals& residuals,
+                const CurveFitOptions& options) {
+  if (!ratio_bound(minimum.estimates, options)) return false;
+  const Index freedom = residuals.values() + residuals.priors() - minimum.estimates.size();
+  return !residuals.has_sigma() || freedom <= 0 ||
+         chi_square_above(2.0 * minimum.loss, int(freedom)) < improbable;
+}
+
+/// From the start, then from the others, each with its share of the evaluations that are left; from
+/// those in reserve while the least ends badly. Without an answer at one of the others there is no
+/// minimum from there.
+std::vector<Minimum> minima_from(CurveResiduals& residuals, const CurveFitOptions& options) {
+  std::vector<VectorXd> starts = options.other_starts;
+  starts.insert(starts.begin(), start_of(options));
+  const std::size_t needed = starts.size();
+  starts.insert(starts.end(), options.reserve_starts.begin(), options.reserve_starts.end());
+  std::vector<Minimum> minima;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (i >= needed && !ends_badly(best_of(minima, residuals), residuals, options)) break;
+    const int used = residuals.evaluations(),
+              shares = int((i < needed ? needed : starts.size()) - i);
+    if (i >= needed && used >= options.max_evaluations) break;
+    residuals.allow(used + std::max(1, (options.max_evaluations - used) / shares));
+    try {
+      minima.push_back(minimise(residuals, options, starts[i]));
+    } catch (const meshes::NotConverged&) {
+      if (i == 0) throw;
+    }
+  }
+  return minima;
 }
 
 /// sqrt(sum of squares / degrees of freedom) of the data alone [y].
@@ -136,14 +163,9 @@ void add_bounds(CurveFit& fit, const CurveFitOptions& options) {
     fit.at_bound.push_back(p - lower_bound(options.free[i]) <= near ||
                            options.free[i].upper - p <= near);
   }
-  const FitCoordinates coordinates(options);
-  const auto places = coordinates.rubber();
-  if (!places) return;
-  const auto [e, g] = *places;
-  const double x = coordinates.from(fit.estimates)(e);
-  if (x > 1.001 * coordinates.lower()(e) && x < (1.0 - 1e-9) * coordinates.upper()(e)) return;
-  fit.poissons_ratio_bound = fit.estimates(e) / (2.0 * fit.estimates(g)) - 1.0;
-  fit.at_bound[std::size_t(e)] = true;
+  fit.poissons_ratio_bound = ratio_bound(fit.estimates, options);
+  if (fit.poissons_ratio_bound)
+    fit.at_bound[std::size_t(FitCoordinates(options).rubber()->first)] = true;
 }
 
 /// Squares of the residuals, and of the priors' where sigma weighs both; the deviation of one

@@ -117,11 +117,12 @@ void check_curve_fit(const std::vector<Curve>& curves, const CurveFitOptions& op
     found.push_back({"robust_width", to_text(options.robust_width),
                      "the width must be finite, not negative, and counts in sigma",
                      "give the curves' sigma, or 0"});
-  for (const Eigen::VectorXd& start : options.other_starts)
-    if (start.size() != Index(options.free.size()) || !within_bounds(start, options))
-      found.push_back({"other_starts", std::to_string(start.size()) + " values",
-                       "a start has a finite value within its bounds for every free parameter",
-                       "complete or move it"});
+  for (const auto* starts : {&options.other_starts, &options.reserve_starts})
+    for (const Eigen::VectorXd& start : *starts)
+      if (start.size() != Index(options.free.size()) || !within_bounds(start, options))
+        found.push_back({"other_starts", std::to_string(start.size()) + " values",
+                         "a start has a finite value within its bounds for every free parameter",
+                         "complete or move it"});
   std::size_t rows = 0;
   for (const Curve& curve : curves) rows += curve.x.size();
   for (const FreeParameter& free : options.free) rows += free.prior ? 1 : 0;

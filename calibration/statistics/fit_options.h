@@ -45,6 +45,9 @@ struct CurveFitOptions {
   double value_deviation = 0.0;
   /// Further vectors of start values: of all minima found, the least is reported.
   std::vector<Eigen::VectorXd> other_starts;
+  /// Start values that are tried, one after the other, while the least of the minima is at a bound
+  /// of Poisson's ratio and, where sigma is given, its chi-square is improbable.
+  std::vector<Eigen::VectorXd> reserve_starts = {};
   /// Width w in sigma of the loss w² (sqrt(1 + r²/w²) - 1), quadratic inside, linear outside; 0:
   /// least squares. Needs sigma.
   double robust_width = 0.0;

@@ -132,11 +132,12 @@ void start_at(const Eigen::VectorXd& start, CurveFitOptions& options) {
 void start_from_data(FitInput& input, const std::vector<calibration::Curve>& curves,
                      const std::vector<ForwardModel*>& models, CurveFitOptions& options) {
   if (!input.start_ratios.empty()) {
-    std::vector<Eigen::VectorXd> starts =
+    const auto [valleys, others] =
         calibration::scaled_starts(curves, models, options, input.start_ratios);
-    if (starts.empty()) return;
-    start_at(starts.front(), options);
-    options.other_starts.assign(starts.begin() + 1, starts.end());
+    if (valleys.empty()) return;
+    start_at(valleys.front(), options);
+    options.other_starts.assign(valleys.begin() + 1, valleys.end());
+    options.reserve_starts = others;
   } else if (input.scale_to_data) {
     if (const auto start = calibration::scaled_start(curves, models, options))
       start_at(*start, options);
@@ -265,10 +266,9 @@ void start_from_data(FitInput& input, const FitModels& models) {
   start_from_data(input, curves, list, options);
   std::ranges::copy(options.free, input.options.free.begin());
   const Eigen::VectorXd whole = start_of(input.options);
-  for (const Eigen::VectorXd& other : options.other_starts) {
-    Eigen::VectorXd& start = input.options.other_starts.emplace_back(whole);
-    start.head(Eigen::Index(count)) = other;
-  }
+  for (const auto starts : {&CurveFitOptions::other_starts, &CurveFitOptions::reserve_starts})
+    for (const Eigen::VectorXd& other : options.*starts)
+      (input.options.*starts).emplace_back(whole).head(Eigen::Index(count)) = other;
   add_starts_in_time(input);
 }
 

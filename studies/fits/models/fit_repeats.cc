@@ -104,6 +104,7 @@ CurveFit fit_again(const FitInput& input, const std::vector<calibration::Forward
   calibration::CurveFitOptions options = input.options;
   options.model_covariance = covariance;
   options.other_starts.clear();
+  options.reserve_starts.clear();
   for (std::size_t i = 0; i < options.free.size(); ++i)
     options.free[i].start = before.estimates(Index(i));
   CurveFit fit = calibration::fit_curves(curves, models, options);

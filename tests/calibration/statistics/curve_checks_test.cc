@@ -228,11 +228,11 @@ TEST(CurveChecks, ScaledStartsFindTheRubberOfAPoissonsRatio) {
                             {youngs_modulus, shear_modulus});
   CurveFitOptions options = e_and_g();
   const double nu = rubber.poissons_ratio();
-  auto starts = scaled_starts({curve}, {&model}, options, {nu, 0.3});
+  auto starts = scaled_starts({curve}, {&model}, options, {nu, 0.3}).valleys;
   ASSERT_EQ(starts.size(), 1u) << "0.3 lies on the slope of the valley at nu";
   EXPECT_NEAR(starts[0](0) / rubber.youngs_modulus, 1.0, 1e-9);
   EXPECT_NEAR(starts[0](1) / rubber.shear_modulus, 1.0, 1e-9);
-  starts = scaled_starts({curve}, {&model}, options, {0.3});
+  starts = scaled_starts({curve}, {&model}, options, {0.3}).valleys;
   ASSERT_EQ(starts.size(), 1u);
   EXPECT_NEAR(starts[0](0) / starts[0](1), 2.6, 1e-12);
   // No other scale is better at 0.3.
@@ -242,7 +242,7 @@ TEST(CurveChecks, ScaledStartsFindTheRubberOfAPoissonsRatio) {
     EXPECT_GT((model.evaluate(factor * starts[0]).value - y).norm(), best);
   options.free[0].upper = 4600.0;
   options.free[1].lower = 1500.0;
-  starts = scaled_starts({curve}, {&model}, options, {0.3});
+  starts = scaled_starts({curve}, {&model}, options, {0.3}).valleys;
   EXPECT_LE(starts[0](0), 4600.0);
   EXPECT_GE(starts[0](1), 1500.0);
   options.free[0].upper = 1e9;

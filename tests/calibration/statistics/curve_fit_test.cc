@@ -245,6 +245,27 @@ TEST(CurveFit, OfSeveralMinimaTheLeastIsReported) {
   EXPECT_GT(fit.minima[0].loss, 1e6 * fit.minima[1].loss);
 }
 
+/// The same pair of rubbers, of which bounds leave the true one: on this side of the ridge the
+/// search ends at the bound.
+TEST(CurveFit, WhereASearchEndsAtABoundOfPoissonsRatioStartsInReserveAreTried) {
+  CurveFitOptions options = e_and_g();
+  options.free[0].start = 4600.0;
+  options.free[1].start = 1980.0;
+  options.lowest_poissons_ratio = 0.15;
+  const std::vector<Curve> curves = {
+      synthetic(ContactMode::frictionless, {4e-4, 8e-4, 12e-4}, 0.0, 0, false),
+      synthetic(ContactMode::stick, {4e-4, 8e-4, 12e-4}, 0.0, 0, false)};
+  const std::vector<PressSetup> presses = {press(ContactMode::frictionless),
+                                           press(ContactMode::stick)};
+  ASSERT_NEAR(fit_presses(curves, presses, options).poissons_ratio_bound.value(), 0.15, 1e-9);
+  // The second is not asked any more.
+  options.reserve_starts = {Eigen::Vector2d(4500.0, 1540.0), Eigen::Vector2d(4500.0, 1600.0)};
+  const CurveFit fit = fit_presses(curves, presses, options);
+  EXPECT_NEAR(fit.estimates(0) / rubber.youngs_modulus, 1.0, 1e-7);
+  EXPECT_FALSE(fit.poissons_ratio_bound);
+  EXPECT_EQ(fit.minima.size(), 2u);
+}
+
 /// Each bound fails by chance in one of 10^4 runs; the seeds are fixed.
 TEST(CurveFit, NoiseStaysWithinItsStandardErrors) {
   const CurveFit fit =
