@@ -48,9 +48,9 @@ struct ComparisonResult {
 ComparisonResult write_comparison(const std::vector<std::filesystem::path>& runs,
                                   const std::filesystem::path& out_folder);
 
-/// What the page of a `validate` or `calibrate` run folder tells in its main tables, for a terminal,
-/// then the criteria.
-/// Throws meshes::InvalidInput like write_report, and for damaged files.
+/// What the page of a `validate` or `calibrate` run folder tells in its main tables, for a
+/// terminal, then the criteria. Throws meshes::InvalidInput like write_report, and for damaged
+/// files.
 std::string verdict_text(const std::filesystem::path& run_folder);
 
 }  // namespace fingertip::studies::report

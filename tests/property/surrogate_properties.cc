@@ -32,7 +32,7 @@ std::vector<SurrogateSample> random_samples(bool rising) {
 
 void expect_rising_and_covered(bool rising) {
   const std::vector<SurrogateSample> samples = random_samples(rising);
-  const Surrogate curve = fit_surrogate(samples, {"", std::pow(10.0, uniform(-10.0, 0.0))});
+  const Surrogate curve = fit_surrogate(samples);
   RC_ASSERT(curve.force(0.0) == 0.0);
   double before = 0.0;
   for (int i = 1; i <= 300; ++i) {

@@ -81,10 +81,8 @@ void trace(const Solid& solid, ProfileSurface surface, report::Series& outline) 
 }
 
 report::Figure section(const auto& shape, const std::string& name) {
-  report::Panel panel{.x_label = "x [mm]",
-                      .y_label = "z [mm]",
-                      .equal_scales = true,
-                      .key = "outside right top"};
+  report::Panel panel{
+      .x_label = "x [mm]", .y_label = "z [mm]", .equal_scales = true, .key = "outside right top"};
   for (const Look& look : looks) {
     report::Series outline{look.meaning, "", {look.colour, "", 2.5}};
     trace(shape, look.surface, outline);

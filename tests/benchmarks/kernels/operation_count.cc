@@ -50,7 +50,8 @@ namespace {
   const bool rates =
       cells.material.kind != CellLawKind::cubic && cells.material.retardation_time > 0.0;
   kernel::CellBounds bounds;
-  kernel::CellBody<Counted>::select(cells.material.kind, {.rates = rates})(
+  kernel::CellBody<Counted>::select(cells.material.kind,
+                                    rates ? kernel::CellTask::damped : kernel::CellTask::elastic)(
       a, cells.blocks.data(), 0, cells.blocks.size(), bounds);
 }
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "lattice/forces/cube.h"
+#include "lattice/statics/cube.h"
 
 /// Besides the six rigid ones: modes with an eigenvalue below 1e-10 of the largest. Dense, so for
 /// cubes of a few cells.

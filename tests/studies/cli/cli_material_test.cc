@@ -56,8 +56,7 @@ class MaterialInTime : public testing::Test {
 };
 
 TEST_F(MaterialInTime, FromFilesToACardThatPressesAsItsKeysDo) {
-  EXPECT_TRUE(
-      says(fit(0).out, {"measured, J/m^3", "rubber.card=PATH --set lattice.model=network"}))
+  EXPECT_TRUE(says(fit(0).out, {"measured, J/m^3", "rubber.card=PATH --set lattice.model=network"}))
       << "the lattice that takes a law";
   const std::string card = folder_.text("laws/material.toml");
   EXPECT_TRUE(says(card, {"name = \"neo-hookean+prony-1\"", "relaxation_tau1_interval"}));

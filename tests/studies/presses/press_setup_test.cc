@@ -204,7 +204,8 @@ TEST(MaterialOfAPress, IsThatOfTheContinuumToo) {
   for (const char* more : {"rubber.poissons_ratio=0.45", "rubber.youngs_modulus=3900 Pa",
                            "rubber.density=1 g/cm^3", "press.depth=0.1 cm"}) {
     const Config config = with_material(config_of(with(sets, more)), LatticeUse::modes).config;
-    for (const fingertip::meshes::Rubber& rubber : {config.press.rubber, config.continuum().rubber}) {
+    for (const fingertip::meshes::Rubber& rubber :
+         {config.press.rubber, config.continuum().rubber}) {
       EXPECT_EQ(rubber.youngs_modulus, 5000.0) << more;
       EXPECT_EQ(rubber.shear_modulus, 1800.0) << more;
       EXPECT_EQ(rubber.density, config.press.rubber.density) << more;

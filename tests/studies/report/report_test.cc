@@ -282,8 +282,8 @@ TEST(VerdictText, IsPlainAsciiWithTheSameNumbers) {
   SyntheticRun run;
   const std::string text = studies::report::verdict_text(run.path);
   for (char c : text) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << int(c);
-  for (const char* part : {"published", "central", "hookean", "8.818", "14.01", "+100 %",
-                           "-10.0 %", "197.2 mN", "met "}) {
+  for (const char* part : {"published", "central", "hookean", "8.818", "14.01", "+100 %", "-10.0 %",
+                           "197.2 mN", "met "}) {
     EXPECT_TRUE(says(text, part)) << "\n";
   }
   std::istringstream lines(text);
