@@ -8,7 +8,7 @@
 #include "studies/exchange/mujoco_files.h"
 #include "studies/exchange/pressure_law_files.h"
 #include "studies/exchange/sofa_files.h"
-#include "studies/exchange/texts.h"
+#include "studies/exchange/texts/texts.h"
 #include "studies/files/read_fields.h"
 #include "studies/jobs/json_file.h"
 

@@ -7,7 +7,7 @@
 #include "calibration/contact_laws/pressure_law.h"
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
-#include "studies/exchange/texts.h"
+#include "studies/exchange/texts/texts.h"
 
 namespace fingertip::studies::inline exchange {
 

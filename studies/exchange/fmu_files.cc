@@ -10,7 +10,7 @@
 #include "meshes/base/files.h"
 #include "studies/config/keys/key_table.h"
 #include "studies/config/shapes/surface_cache.h"
-#include "studies/exchange/texts.h"
+#include "studies/exchange/texts/texts.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
 #include "studies/fmu/fmu_variables.h"

@@ -6,7 +6,7 @@
 
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
-#include "studies/exchange/texts.h"
+#include "studies/exchange/texts/texts.h"
 #include "studies/files/read_fields.h"
 
 namespace fingertip::studies::inline exchange {

@@ -6,7 +6,7 @@
 
 #include "meshes/base/files.h"
 #include "studies/exchange/soft_body.h"
-#include "studies/exchange/texts.h"
+#include "studies/exchange/texts/texts.h"
 #include "studies/presses/pictures/vtk_text.h"
 
 namespace fingertip::studies::inline exchange {

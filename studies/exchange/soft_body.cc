@@ -8,7 +8,7 @@
 
 #include "meshes/base/files.h"
 #include "meshes/shape/geometry.h"
-#include "studies/exchange/texts.h"
+#include "studies/exchange/texts/texts.h"
 
 namespace fingertip::studies::inline exchange {
 

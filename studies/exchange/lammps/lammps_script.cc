@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "studies/exchange/texts.h"
+#include "studies/exchange/texts/texts.h"
 
 namespace fingertip::studies::inline exchange::inline lammps {
 

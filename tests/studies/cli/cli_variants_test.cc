@@ -44,7 +44,7 @@ limit = 1e-9
 TEST(Study, GoesFromVariantsToReport) {
   const Workplace folder;
   folder.put("study.toml", small_study);
-  EXPECT_TRUE(says(folder.run("validate study.toml --out one").out, "hookean, R/5"));
+  EXPECT_TRUE(says(folder.run("validate study.toml --out one").out, "R/5 (hookean)"));
   EXPECT_FALSE(folder.has("one/calibration_hookean")) << "the core case's";
   EXPECT_FALSE(folder.has("one/continuum/2")) << "one continuum for all";
 
