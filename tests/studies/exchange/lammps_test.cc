@@ -189,8 +189,8 @@ TEST(UndampedMarch, LightMassesThatAreShakenHardMoveChaotically) {
         body_of({"lattice.model=central", "lattice.kinematics=finite", "exchange.hold=free",
                  std::string("exchange.agitation=") + agitation});
     UndampedBody twin = body;
-    const std::uint32_t moved = body.model.particles.front();
-    twin.start.displacement.set(moved, (1.0 + 0x1p-52) * body.start.displacement.at(moved));
+    for (const std::uint32_t i : body.model.particles)
+      twin.start.displacement.set(i, (1.0 + 0x1p-52) * body.start.displacement.at(i));
     UndampedMarch march(body), other(twin);
     for (int step = 0; step < steps; ++step) march.advance(), other.advance();
     const lattice::State ours = march.now(), theirs = other.now();

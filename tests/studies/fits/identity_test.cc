@@ -212,7 +212,7 @@ const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawA
     "calibration.rig", "calibration.machine", "calibration.candidates", "calibration.intervals",
     // Of plans; see IdentityOfAPlan. The other contact is another fit.
     "calibration.noise", "calibration.noise_force", "calibration.contact"};
-/// Of the fit of constants to moduli, which a hookean lattice has in closed form.
+/// Of the fit of constants to moduli.
 const Sets moduli_fit = {"calibration.starts", "calibration.seed", "calibration.isotropy_weight",
                          "calibration.bulk_weight"};
 /// What becomes of a fit: further jobs.
@@ -293,7 +293,8 @@ const World worlds[] = {
          split("press. obstacle. geometry.rod_radius geometry.sleeve_length geometry.rod_length "
                "lattice.offset lattice.rotation lattice.constants lattice.kinematics "
                "lattice.ligament_stiffness lattice.contact_stiffness calibration.data "
-               "calibration.conditions calibration.depth calibration.points calibration.parameters "
+               "calibration.starts calibration.seed calibration.conditions calibration.depth "
+               "calibration.points calibration.parameters "
                "calibration.forward calibration.prior calibration.model_error "
                "calibration.robust_width calibration.poisson_range calibration.evaluations "
                "calibration.profile")},
