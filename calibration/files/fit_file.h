@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "calibration/files/moduli_file.h"
-#include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::calibration::inline files {
@@ -20,11 +19,7 @@ namespace fingertip::calibration::inline files {
 struct PriorEntry {
   double mean = meshes::unknown, deviation = meshes::unknown;
 };
-constexpr auto fields_of(const PriorEntry*) {
-  using meshes::named;
-  using Whole = PriorEntry;
-  return named("mean deviation", &Whole::mean, &Whole::deviation);
-}
+FINGERTIP_FIELDS(PriorEntry, mean, deviation);
 
 /// A free parameter, in `unit`.
 struct ParameterEntry {
@@ -38,15 +33,10 @@ struct ParameterEntry {
   double bias = meshes::unknown;
   std::string interval;  ///< what it is: linear, profile, or either with both contacts
 };
-constexpr auto fields_of(const ParameterEntry*) {
-  using meshes::named, meshes::newer;
-  using Whole = ParameterEntry;
-  return std::tuple_cat(named("name unit estimate standard_error lower upper at_bound",
-                              &Whole::name, &Whole::unit, &Whole::estimate, &Whole::standard_error,
-                              &Whole::lower, &Whole::upper, &Whole::at_bound),
-                        newer(named("bound_of", &Whole::bound_of)),
-                        named("start prior bias", &Whole::start, &Whole::prior, &Whole::bias),
-                        newer(named("interval", &Whole::interval)));
+consteval auto fields_of(const ParameterEntry*) {
+  return FINGERTIP_ALL_MEMBERS(ParameterEntry, name, unit, estimate, standard_error, lower, upper,
+                               at_bound, bound_of, start, prior, bias, interval)
+      .newer("bound_of interval");
 }
 
 /// Whether the data leave open what has `unit`: its 95 % interval exceeds it. A travel at touch, a
@@ -66,11 +56,7 @@ struct ResidualStructure {
   double probability = 1.0;
   std::string statement;
 };
-constexpr auto fields_of(const ResidualStructure*) {
-  using meshes::named;
-  using Whole = ResidualStructure;
-  return named("runs probability statement", &Whole::runs, &Whole::probability, &Whole::statement);
-}
+FINGERTIP_FIELDS(ResidualStructure, runs, probability, statement);
 
 /// The fit without a curve, asked for it.
 struct LeftOutEntry {
@@ -78,12 +64,9 @@ struct LeftOutEntry {
   double worst_relative_error = meshes::unknown;
   std::string failure;
 };
-constexpr auto fields_of(const LeftOutEntry*) {
-  using meshes::named, meshes::newer;
-  using Whole = LeftOutEntry;
-  return std::tuple_cat(
-      named("estimates worst_relative_error", &Whole::estimates, &Whole::worst_relative_error),
-      newer(named("failure", &Whole::failure)));
+consteval auto fields_of(const LeftOutEntry*) {
+  return FINGERTIP_ALL_MEMBERS(LeftOutEntry, estimates, worst_relative_error, failure)
+      .newer("failure");
 }
 
 /// Repeats of one press, two or more curves of the same finger, pressed in the same way; an entry
@@ -103,13 +86,8 @@ struct Repeats {
   std::vector<double> travel, mean, scatter, noise;
   std::vector<std::size_t> places = {};  ///< of the curves in the fit; not in the file
 };
-constexpr auto fields_of(const Repeats*) {
-  using meshes::named;
-  using Whole = Repeats;
-  return named("curves factors factor_errors deviation probability travel mean scatter noise",
-               &Whole::curves, &Whole::factors, &Whole::factor_errors, &Whole::deviation,
-               &Whole::probability, &Whole::travel, &Whole::mean, &Whole::scatter, &Whole::noise);
-}
+FINGERTIP_FIELDS_BUT((places), Repeats, curves, factors, factor_errors, deviation, probability,
+                     travel, mean, scatter, noise);
 
 /// What a file tells besides the values that are fitted; SI, NaN where unknown.
 struct LoadingHistory {
@@ -128,15 +106,10 @@ struct LoadingHistory {
   /// Of a value that is fitted, the mean of some rows.
   double noise_of_value() const { return noise / std::sqrt(std::max(1.0, rows_per_value)); }
 };
-constexpr auto fields_of(const LoadingHistory*) {
-  using meshes::named;
-  using Whole = LoadingHistory;
-  return std::tuple_cat(named("rows noise", &Whole::rows, &Whole::noise),
-                        newer(named("rows_per_value", &Whole::rows_per_value)),
-                        named("loop", &Whole::loop), newer(named("play", &Whole::play)),
-                        named("hold_time relaxation back_x back_y", &Whole::hold_time,
-                              &Whole::relaxation, &Whole::back_x, &Whole::back_y),
-                        newer(named("held_time held_y", &Whole::held_time, &Whole::held_y)));
+consteval auto fields_of(const LoadingHistory*) {
+  return FINGERTIP_ALL_MEMBERS(LoadingHistory, rows, noise, rows_per_value, loop, play, hold_time,
+                               relaxation, back_x, back_y, held_time, held_y)
+      .newer("rows_per_value play held_time held_y");
 }
 
 /// A curve of a fit.
@@ -148,16 +121,11 @@ struct CurveEntry {
   std::optional<LeftOutEntry> left_out;
   std::optional<LoadingHistory> course;
 };
-constexpr auto fields_of(const CurveEntry*) {
-  using meshes::named, meshes::newer;
-  using Whole = CurveEntry;
-  return std::tuple_cat(
-      named("name condition", &Whole::name, &Whole::condition),
-      newer(named("x_quantity y_quantity", &Whole::x_quantity, &Whole::y_quantity)),
-      named("points worst_relative_residual rms_relative_residual structure left_out",
-            &Whole::points, &Whole::worst_relative_residual, &Whole::rms_relative_residual,
-            &Whole::structure, &Whole::left_out),
-      newer(named("course", &Whole::course)));
+consteval auto fields_of(const CurveEntry*) {
+  return FINGERTIP_ALL_MEMBERS(CurveEntry, name, condition, x_quantity, y_quantity, points,
+                               worst_relative_residual, rms_relative_residual, structure, left_out,
+                               course)
+      .newer("x_quantity y_quantity course");
 }
 
 /// A combination of parameters that data do not determine.
@@ -166,12 +134,7 @@ struct DirectionEntry {
   double relative_singular_value = meshes::unknown, interval = meshes::unknown;
   std::string statement;
 };
-constexpr auto fields_of(const DirectionEntry*) {
-  using meshes::named;
-  using Whole = DirectionEntry;
-  return named("direction relative_singular_value interval statement", &Whole::direction,
-               &Whole::relative_singular_value, &Whole::interval, &Whole::statement);
-}
+FINGERTIP_FIELDS(DirectionEntry, direction, relative_singular_value, interval, statement);
 
 /// Where a search ended.
 struct MinimumEntry {
@@ -180,12 +143,9 @@ struct MinimumEntry {
   long iterations = 0;
   bool converged = false;
 };
-constexpr auto fields_of(const MinimumEntry*) {
-  using meshes::named, meshes::newer;
-  using Whole = MinimumEntry;
-  return std::tuple_cat(
-      named("estimates loss iterations", &Whole::estimates, &Whole::loss, &Whole::iterations),
-      newer(named("converged", &Whole::converged)));
+consteval auto fields_of(const MinimumEntry*) {
+  return FINGERTIP_ALL_MEMBERS(MinimumEntry, estimates, loss, iterations, converged)
+      .newer("converged");
 }
 
 /// Rise of chi-square over two parameters.
@@ -194,12 +154,7 @@ struct ProfileEntry {
   std::vector<double> first_values, second_values;
   std::vector<std::vector<double>> increase;
 };
-constexpr auto fields_of(const ProfileEntry*) {
-  using meshes::named;
-  using Whole = ProfileEntry;
-  return named("first second first_values second_values increase", &Whole::first, &Whole::second,
-               &Whole::first_values, &Whole::second_values, &Whole::increase);
-}
+FINGERTIP_FIELDS(ProfileEntry, first, second, first_values, second_values, increase);
 
 /// A quantity of a rig in SI; of a fitted one its 95 % interval.
 struct RigEntry {
@@ -208,24 +163,15 @@ struct RigEntry {
   double value = meshes::unknown, lower = meshes::unknown, upper = meshes::unknown;
   std::optional<bool> given;  ///< false: nobody has stated it, and it is the default
 };
-constexpr auto fields_of(const RigEntry*) {
-  using meshes::named, meshes::newer;
-  using Whole = RigEntry;
-  return std::tuple_cat(named("of fitted value lower upper", &Whole::of, &Whole::fitted,
-                              &Whole::value, &Whole::lower, &Whole::upper),
-                        newer(named("given", &Whole::given)));
+consteval auto fields_of(const RigEntry*) {
+  return FINGERTIP_ALL_MEMBERS(RigEntry, of, fitted, value, lower, upper, given).newer("given");
 }
 
 /// What machines add to presses over their travel, per file or machine.
 struct RigFile {
   std::vector<RigEntry> touch_offset, compliance, force_offset, drift;
 };
-constexpr auto fields_of(const RigFile*) {
-  using meshes::named;
-  using Whole = RigFile;
-  return named("touch_offset compliance force_offset drift", &Whole::touch_offset,
-               &Whole::compliance, &Whole::force_offset, &Whole::drift);
-}
+FINGERTIP_FIELDS(RigFile, touch_offset, compliance, force_offset, drift);
 
 /// What freeing a number that the model of a fit leaves out would do (statistics/score_tests.h).
 struct ScoreTest {
@@ -235,23 +181,14 @@ struct ScoreTest {
   double probability = 1.0;   ///< of at least that decrease if the number were 0
   std::string share_of = {};  ///< OmittedEffect::share_of; not in the file
 };
-constexpr auto fields_of(const ScoreTest*) {
-  using meshes::named;
-  using Whole = ScoreTest;
-  return named("name of cause unit amount decrease probability", &Whole::name, &Whole::of,
-               &Whole::cause, &Whole::unit, &Whole::amount, &Whole::decrease, &Whole::probability);
-}
+FINGERTIP_FIELDS_BUT((share_of), ScoreTest, name, of, cause, unit, amount, decrease, probability);
 
 /// What a further measurement would make of a parameter's 95 % interval.
 struct NarrowedEntry {
   std::string name;
   double lower = meshes::unknown, upper = meshes::unknown, times = meshes::unknown;
 };
-constexpr auto fields_of(const NarrowedEntry*) {
-  using meshes::named;
-  using Whole = NarrowedEntry;
-  return named("name lower upper times", &Whole::name, &Whole::lower, &Whole::upper, &Whole::times);
-}
+FINGERTIP_FIELDS(NarrowedEntry, name, lower, upper, times);
 
 /// A further measurement, and what it would tell.
 struct NextEntry {
@@ -259,24 +196,14 @@ struct NextEntry {
   std::vector<NarrowedEntry> parameters;
   std::string failure;
 };
-constexpr auto fields_of(const NextEntry*) {
-  using meshes::named;
-  using Whole = NextEntry;
-  return named("name press parameters failure", &Whole::name, &Whole::press, &Whole::parameters,
-               &Whole::failure);
-}
+FINGERTIP_FIELDS(NextEntry, name, press, parameters, failure);
 
 /// What a parameter is with another contact.
 struct OtherEstimate {
   std::string name;
   double estimate = meshes::unknown, lower = meshes::unknown, upper = meshes::unknown;
 };
-constexpr auto fields_of(const OtherEstimate*) {
-  using meshes::named;
-  using Whole = OtherEstimate;
-  return named("name estimate lower upper", &Whole::name, &Whole::estimate, &Whole::lower,
-               &Whole::upper);
-}
+FINGERTIP_FIELDS(OtherEstimate, name, estimate, lower, upper);
 
 /// Where the contact is not known: the one that was taken, and the fit with the other.
 struct ContactEntry {
@@ -284,12 +211,7 @@ struct ContactEntry {
   double chi_square = meshes::unknown, residual_deviation = meshes::unknown;  ///< with the other
   std::vector<OtherEstimate> parameters;
 };
-constexpr auto fields_of(const ContactEntry*) {
-  using meshes::named;
-  using Whole = ContactEntry;
-  return named("taken other chi_square residual_deviation parameters", &Whole::taken, &Whole::other,
-               &Whole::chi_square, &Whole::residual_deviation, &Whole::parameters);
-}
+FINGERTIP_FIELDS(ContactEntry, taken, other, chi_square, residual_deviation, parameters);
 
 /// Where the result may be used.
 struct ValidityEntry {
@@ -297,13 +219,7 @@ struct ValidityEntry {
          poissons_ratio = meshes::unknown;
   std::string model, kinematics;
 };
-constexpr auto fields_of(const ValidityEntry*) {
-  using meshes::named;
-  using Whole = ValidityEntry;
-  return named("largest_strain_measure spacing poissons_ratio model kinematics",
-               &Whole::largest_strain_measure, &Whole::spacing, &Whole::poissons_ratio,
-               &Whole::model, &Whole::kinematics);
-}
+FINGERTIP_FIELDS(ValidityEntry, largest_strain_measure, spacing, poissons_ratio, model, kinematics);
 
 /// surrogate.json: force and stiffness at the knots of a spline.
 struct SurrogateFile {
@@ -313,13 +229,7 @@ struct SurrogateFile {
 
   bool empty() const { return knots.empty(); }
 };
-constexpr auto fields_of(const SurrogateFile*) {
-  using meshes::named;
-  using Whole = SurrogateFile;
-  return named("knots force stiffness band statement condition units", &Whole::knots, &Whole::force,
-               &Whole::stiffness, &Whole::band, &Whole::statement, &Whole::condition,
-               &Whole::units);
-}
+FINGERTIP_FIELDS(SurrogateFile, knots, force, stiffness, band, statement, condition, units);
 
 /// calibration.json of a fit to curves.
 struct FitFile {
@@ -359,29 +269,17 @@ struct FitFile {
 
   bool empty() const { return problem.empty(); }
 };
-constexpr auto fields_of(const FitFile*) {
-  using meshes::named, meshes::newer;
-  using Whole = FitFile;
-  return std::tuple_cat(
-      named("problem model spacing constants damping target", &Whole::problem, &Whole::model,
-            &Whole::spacing, &Whole::constants, &Whole::damping, &Whole::target),
-      newer(named("rubber", &Whole::rubber)),
-      named("achieved forward parameters covariance correlation singular_values unidentifiable "
-            "only_from_priors degrees_of_freedom chi_square chi_square_probability birge_ratio",
-            &Whole::achieved, &Whole::forward, &Whole::parameters, &Whole::covariance,
-            &Whole::correlation, &Whole::singular_values, &Whole::unidentifiable,
-            &Whole::only_from_priors, &Whole::degrees_of_freedom, &Whole::chi_square,
-            &Whole::chi_square_probability, &Whole::birge_ratio),
-      newer(named("model_error converged poissons_ratio_bound", &Whole::model_error,
-                  &Whole::converged, &Whole::poissons_ratio_bound)),
-      named("residual_deviation minima x_quantity y_quantity curves residuals influence profile "
-            "iterations evaluations wall_time validity",
-            &Whole::residual_deviation, &Whole::minima, &Whole::x_quantity, &Whole::y_quantity,
-            &Whole::curves, &Whole::residuals, &Whole::influence, &Whole::profile,
-            &Whole::iterations, &Whole::evaluations, &Whole::wall_time, &Whole::validity),
-      newer(named("failed rig lack_of_fit next contact repeats", &Whole::failed, &Whole::rig,
-                  &Whole::lack_of_fit, &Whole::next, &Whole::contact, &Whole::repeats)),
-      named("statement", &Whole::statement));
+consteval auto fields_of(const FitFile*) {
+  return FINGERTIP_ALL_MEMBERS(
+             FitFile, problem, model, spacing, constants, damping, target, rubber, achieved,
+             forward, parameters, covariance, correlation, singular_values, unidentifiable,
+             only_from_priors, degrees_of_freedom, chi_square, chi_square_probability, birge_ratio,
+             model_error, converged, poissons_ratio_bound, residual_deviation, minima, x_quantity,
+             y_quantity, curves, residuals, influence, profile, iterations, evaluations, wall_time,
+             validity, failed, rig, lack_of_fit, next, contact, repeats, statement)
+      .newer(
+          "rubber model_error converged poissons_ratio_bound failed rig lack_of_fit next contact "
+          "repeats");
 }
 
 /// What a fit to moduli, which has no curves, has in common with others.

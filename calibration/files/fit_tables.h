@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 #include "meshes/tables/table_rows.h"
 
@@ -34,18 +33,10 @@ struct FitDataRow {
   /// of the squares, and of the priors', is chi-square. Unknown without sigma.
   double whitened_residual = meshes::unknown;
 };
-constexpr auto fields_of(const FitDataRow*) {
-  using meshes::field, meshes::Presence;
-  using Row = FitDataRow;
-  return std::tuple{field("curve", &Row::curve),
-                    field("x", &Row::x),
-                    field("measured", &Row::measured),
-                    field("sigma", &Row::sigma, Presence::newer),
-                    field("fitted", &Row::fitted),
-                    field("left_out", &Row::left_out, Presence::newer),
-                    field("indentation", &Row::indentation, Presence::newer),
-                    field("total_sigma", &Row::total_sigma, Presence::newer),
-                    field("whitened_residual", &Row::whitened_residual, Presence::newer)};
+consteval auto fields_of(const FitDataRow*) {
+  return FINGERTIP_ALL_MEMBERS(FitDataRow, curve, x, measured, sigma, fitted, left_out, indentation,
+                               total_sigma, whitened_residual)
+      .newer("sigma left_out indentation total_sigma whitened_residual");
 }
 
 /// surrogate.csv: the smoothed force with its band.
@@ -56,13 +47,12 @@ struct SurrogateRow {
   double force_lower = meshes::unknown;
   double force_upper = meshes::unknown;
 };
-constexpr auto fields_of(const SurrogateRow*) {
-  using meshes::field, meshes::Presence;
-  using Row = SurrogateRow;
-  return std::tuple{field("indentation [m]", &Row::indentation), field("force [N]", &Row::force),
-                    field("stiffness [N/m]", &Row::stiffness),
-                    field("force_lower [N]", &Row::force_lower),
-                    field("force_upper [N]", &Row::force_upper)};
+consteval auto fields_of(const SurrogateRow*) {
+  return FINGERTIP_ALL_MEMBERS(SurrogateRow, indentation, force, stiffness, force_lower,
+                               force_upper)
+      .in("m", "indentation")
+      .in("N", "force force_lower force_upper")
+      .in("N/m", "stiffness");
 }
 
 }  // namespace fingertip::calibration::inline files

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::calibration::inline files {
@@ -16,13 +15,10 @@ struct RubberEntry {
          poissons_ratio = meshes::unknown, bulk_modulus = meshes::unknown;
   std::optional<std::vector<std::vector<double>>> relaxation = {};  ///< shares and times [s]
 };
-constexpr auto fields_of(const RubberEntry*) {
-  using meshes::if_known, meshes::named;
-  using Whole = RubberEntry;
-  return std::tuple_cat(
-      named("youngs_modulus shear_modulus poissons_ratio bulk_modulus", &Whole::youngs_modulus,
-            &Whole::shear_modulus, &Whole::poissons_ratio, &Whole::bulk_modulus),
-      if_known(named("relaxation", &Whole::relaxation)));
+consteval auto fields_of(const RubberEntry*) {
+  return FINGERTIP_ALL_MEMBERS(RubberEntry, youngs_modulus, shear_modulus, poissons_ratio,
+                               bulk_modulus, relaxation)
+      .if_known("relaxation");
 }
 
 /// Spring constants [N/m], volume constant [Pa]; of the network lambda and G besides [Pa].
@@ -30,11 +26,8 @@ struct FitConstants {
   double k1 = meshes::unknown, k2 = meshes::unknown, k3 = meshes::unknown, kappa = meshes::unknown,
          lambda = meshes::unknown, G = meshes::unknown;
 };
-constexpr auto fields_of(const FitConstants*) {
-  using meshes::if_known, meshes::named;
-  using Whole = FitConstants;
-  return std::tuple_cat(named("k1 k2 k3 kappa", &Whole::k1, &Whole::k2, &Whole::k3, &Whole::kappa),
-                        if_known(named("lambda G", &Whole::lambda, &Whole::G)));
+consteval auto fields_of(const FitConstants*) {
+  return FINGERTIP_ALL_MEMBERS(FitConstants, k1, k2, k3, kappa, lambda, G).if_known("lambda G");
 }
 
 /// Elastic constants of the infinite lattice [Pa].
@@ -48,37 +41,21 @@ struct AchievedEntry {
   double bulk_modulus = meshes::unknown;  ///< K = (C11 + 2 C12)/3
   double anisotropy = meshes::unknown;    ///< Zener's A = 2 C44/(C11 - C12), 1 when isotropic
 };
-constexpr auto fields_of(const AchievedEntry*) {
-  using meshes::named;
-  using Whole = AchievedEntry;
-  return named(
-      "youngs_modulus_100 youngs_modulus_110 youngs_modulus_111 shear_modulus poissons_ratio_100 "
-      "bulk_modulus anisotropy",
-      &Whole::youngs_modulus_100, &Whole::youngs_modulus_110, &Whole::youngs_modulus_111,
-      &Whole::shear_modulus, &Whole::poissons_ratio_100, &Whole::bulk_modulus, &Whole::anisotropy);
-}
+FINGERTIP_FIELDS(AchievedEntry, youngs_modulus_100, youngs_modulus_110, youngs_modulus_111,
+                 shear_modulus, poissons_ratio_100, bulk_modulus, anisotropy);
 
 /// [s].
 struct DampingEntry {
   double retardation_time = meshes::unknown;
 };
-constexpr auto fields_of(const DampingEntry*) {
-  using meshes::named;
-  using Whole = DampingEntry;
-  return named("retardation_time", &Whole::retardation_time);
-}
+FINGERTIP_FIELDS(DampingEntry, retardation_time);
 
 /// A move of the constants that no test of moduli notices.
 struct OpenConstants {
   double k1 = meshes::unknown, k2 = meshes::unknown, k3 = meshes::unknown, kappa = meshes::unknown;
   std::string meaning;
 };
-constexpr auto fields_of(const OpenConstants*) {
-  using meshes::named;
-  using Whole = OpenConstants;
-  return named("k1 k2 k3 kappa meaning", &Whole::k1, &Whole::k2, &Whole::k3, &Whole::kappa,
-               &Whole::meaning);
-}
+FINGERTIP_FIELDS(OpenConstants, k1, k2, k3, kappa, meaning);
 
 /// calibration.json of a fit to moduli.
 struct ModuliFile {
@@ -95,15 +72,7 @@ struct ModuliFile {
 
   bool empty() const { return model.empty(); }
 };
-constexpr auto fields_of(const ModuliFile*) {
-  using meshes::named;
-  using Whole = ModuliFile;
-  return named(
-      "model spacing constants damping target achieved covariance unidentifiable residuals "
-      "statement",
-      &Whole::model, &Whole::spacing, &Whole::constants, &Whole::damping, &Whole::target,
-      &Whole::achieved, &Whole::covariance, &Whole::unidentifiable, &Whole::residuals,
-      &Whole::statement);
-}
+FINGERTIP_FIELDS(ModuliFile, model, spacing, constants, damping, target, achieved, covariance,
+                 unidentifiable, residuals, statement);
 
 }  // namespace fingertip::calibration::inline files

@@ -39,24 +39,27 @@ std::vector<Quantity> quantities(Material& m) {
   };
   factor("ligament_stiffness", m.ligament_stiffness, "factor on the bond to the rod");
   factor("contact_stiffness", m.contact_stiffness, "factor on the ties to the plane");
-  const auto members = [&](std::string_view section, auto& settings) {
-    visit_fields(settings, [&](std::string_view key, auto& value, std::string_view unit) {
-      if constexpr (std::is_same_v<decltype(value), double&>) {  // a profile is no quantity
-        const bool may_be_unknown =
-            &value == &m.rubber.density || &value == &m.rubber.retardation_time;
-        all.push_back({section, key, unit, &value, nullptr, !may_be_unknown});
-      }
-    });
-  };
-  if (m.model != ModelKind::network) members("constants", m.constants);
-  members("rubber", m.rubber);
+  if (m.model != ModelKind::network)
+    all.insert(all.end(), {{"constants", "k1", "N/m", &m.constants.k1},
+                           {"constants", "k2", "N/m", &m.constants.k2},
+                           {"constants", "k3", "N/m", &m.constants.k3},
+                           {"constants", "kappa", "Pa", &m.constants.kappa}});
+  all.insert(all.end(),
+             {{"rubber", "youngs_modulus", "Pa", &m.rubber.youngs_modulus},
+              {"rubber", "shear_modulus", "Pa", &m.rubber.shear_modulus},
+              {"rubber", "density", "kg/m^3", &m.rubber.density, nullptr, false},
+              {"rubber", "retardation_time", "s", &m.rubber.retardation_time, nullptr, false}});
   for (std::size_t i = 0; i < m.rubber.relaxation.branches.size(); ++i) {
     meshes::RelaxationBranch& branch = m.rubber.relaxation.branches[i];
     all.push_back({"rubber", name(relaxation_parameters[2 * i]), "", &branch.share, nullptr, true,
                    "of the modulus at once; E and G are those after long times"});
     all.push_back({"rubber", name(relaxation_parameters[2 * i + 1]), "s", &branch.time});
   }
-  if (m.geometry) members("geometry", *m.geometry);
+  if (m.geometry)
+    all.insert(all.end(), {{"geometry", "tip_radius", "m", &m.geometry->tip_radius},
+                           {"geometry", "rod_radius", "m", &m.geometry->rod_radius},
+                           {"geometry", "sleeve_length", "m", &m.geometry->sleeve_length},
+                           {"geometry", "rod_length", "m", &m.geometry->rod_length}});
   const auto bound = [&](std::string_view key, std::string_view unit, std::optional<double>& value,
                          std::string_view note) {
     all.push_back({"validity", key, unit, nullptr, &value, false, note});

@@ -8,7 +8,6 @@
 
 #include "calibration/files/fit_file.h"
 #include "calibration/material_tests/law_fit.h"
-#include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::calibration::inline material_tests {
@@ -20,17 +19,11 @@ struct LawTestEntry : TestMisfit {
   std::optional<double> rate = {};
   double published = meshes::unknown;  ///< sum of squares that somebody else's fit left [Pa²]
 };
-constexpr auto fields_of(const LawTestEntry*) {
-  using meshes::named, meshes::newer;
-  using Whole = LawTestEntry;
-  return std::tuple_cat(
-      named("name kind use points rms rms_relative largest_relative sum_of_squares within in_range "
-            "structure",
-            &Whole::name, &Whole::kind, &Whole::use, &Whole::points, &Whole::rms,
-            &Whole::rms_relative, &Whole::largest_relative, &Whole::sum_of_squares, &Whole::within,
-            &Whole::in_range, &Whole::structure),
-      newer(named("course rate loop_measured loop_computed published", &Whole::course, &Whole::rate,
-                  &Whole::loop_measured, &Whole::loop_computed, &Whole::published)));
+consteval auto fields_of(const LawTestEntry*) {
+  return FINGERTIP_MEMBERS(LawTestEntry, name, kind, use, points, rms, rms_relative,
+                           largest_relative, sum_of_squares, within, in_range, structure, course,
+                           rate, loop_measured, loop_computed, published)
+      .newer("course rate loop_measured loop_computed published");
 }
 
 /// Where a law stops being stable.
@@ -38,11 +31,7 @@ struct InstabilityEntry {
   std::string test;
   double stretch = meshes::unknown;
 };
-constexpr auto fields_of(const InstabilityEntry*) {
-  using meshes::named;
-  using Whole = InstabilityEntry;
-  return named("test stretch", &Whole::test, &Whole::stretch);
-}
+FINGERTIP_FIELDS(InstabilityEntry, test, stretch);
 
 /// A law of the ranking.
 struct LawEntry {
@@ -56,16 +45,9 @@ struct LawEntry {
   std::vector<std::string> contradictions;
   std::string failure;
 };
-constexpr auto fields_of(const LawEntry*) {
-  using meshes::named;
-  using Whole = LawEntry;
-  return named(
-      "law parameters shear_modulus aicc covariance tests unstable_in_tests unstable_in_use "
-      "unstable_in_press minima contradictions failure",
-      &Whole::law, &Whole::parameters, &Whole::shear_modulus, &Whole::aicc, &Whole::covariance,
-      &Whole::tests, &Whole::unstable_in_tests, &Whole::unstable_in_use, &Whole::unstable_in_press,
-      &Whole::minima, &Whole::contradictions, &Whole::failure);
-}
+FINGERTIP_FIELDS(LawEntry, law, parameters, shear_modulus, aicc, covariance, tests,
+                 unstable_in_tests, unstable_in_use, unstable_in_press, minima, contradictions,
+                 failure);
 
 /// laws.json.
 struct LawsFile {
@@ -76,15 +58,11 @@ struct LawsFile {
   std::vector<std::string> failed;  ///< LawFit::failed of the recommended one; or why there is none
   std::string statement;
 };
-constexpr auto fields_of(const LawsFile*) {
-  using meshes::named, meshes::newer;
-  using Whole = LawsFile;
-  return std::tuple_cat(
-      named("problem weights recommended smallest_stretch largest_stretch laws statement",
-            &Whole::problem, &Whole::weights, &Whole::recommended, &Whole::smallest_stretch,
-            &Whole::largest_stretch, &Whole::laws, &Whole::statement),
-      newer(named("shortest_time longest_time failed", &Whole::shortest_time, &Whole::longest_time,
-                  &Whole::failed)));
+consteval auto fields_of(const LawsFile*) {
+  return FINGERTIP_ALL_MEMBERS(LawsFile, problem, weights, recommended, smallest_stretch,
+                               largest_stretch, laws, statement, shortest_time, longest_time,
+                               failed)
+      .newer("shortest_time longest_time failed");
 }
 
 /// law_data.csv: a measured stress beside those of a law.
@@ -93,16 +71,11 @@ struct LawDataRow {
   double deformation = meshes::unknown, measured = meshes::unknown, computed = meshes::unknown;
   double time = meshes::unknown;  ///< none of slow tests
 };
-constexpr auto fields_of(const LawDataRow*) {
-  using meshes::field;
-  using Row = LawDataRow;
-  return std::tuple{field("law", &Row::law),
-                    field("test", &Row::test),
-                    field("use", &Row::use),
-                    field("deformation", &Row::deformation),
-                    field("measured [Pa]", &Row::measured),
-                    field("computed [Pa]", &Row::computed),
-                    field("time [s]", &Row::time, meshes::Presence::newer)};
+consteval auto fields_of(const LawDataRow*) {
+  return FINGERTIP_ALL_MEMBERS(LawDataRow, law, test, use, deformation, measured, computed, time)
+      .in("Pa", "measured computed")
+      .in("s", "time")
+      .newer("time");
 }
 
 /// What the ranking says, as a file; `ranking` of rank_laws is not empty.

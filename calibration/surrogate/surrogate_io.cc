@@ -46,13 +46,11 @@ Surrogate read_surrogate_json(const std::filesystem::path& file) {
     std::ifstream in(file);
     if (!std::filesystem::is_regular_file(file) || !in) refuse("the file cannot be read");
     const nlohmann::json json = nlohmann::json::parse(in);
-    if (json.at("units") != nlohmann::json(column_units)) refuse("units must be m, N, N/m and N");
-    json.at("knots").get_to(table.knots);
-    json.at("force").get_to(table.force);
-    json.at("stiffness").get_to(table.stiffness);
-    json.at("band").get_to(table.band);
-    json.at("statement").get_to(table.statement);
-    json.at("condition").get_to(table.condition);
+    SurrogateFile content;
+    meshes::read_json(json, content);
+    if (content.units != column_units) refuse("units must be m, N, N/m and N");
+    table = {content.knots, content.force,     content.stiffness,
+             content.band,  content.condition, content.statement};
   } catch (const nlohmann::json::exception& error) {
     refuse(std::string("no curve: ") + error.what());
   }

@@ -20,7 +20,6 @@ namespace {
 using Json = nlohmann::json;
 using meshes::InvalidInput;
 using meshes::Violation;
-using meshes::visit_fields;
 
 template <class T>
 void get(const Json& value, T& target) {
@@ -45,6 +44,9 @@ void get(const Json& value, T& target) {
   }
 }
 
+/// The surface stands beside the job.
+void get(const Json&, std::shared_ptr<const meshes::Solid>&) {}
+
 /// Refuses what is no entry and what an entry cannot be, all of it in `broken`.
 template <class Settings>
 void read_fields(const Json& object, const std::string& place, Settings& settings,
@@ -54,13 +56,14 @@ void read_fields(const Json& object, const std::string& place, Settings& setting
   };
   if (!object.is_object()) return refuse("", object, "must be a JSON object");
   std::vector<std::string> known;
-  visit_fields(settings, [&](const char* key, auto& member, const char*) {
-    known.emplace_back(key);
+  meshes::for_each_field<Settings>([&](const auto& field) {
+    const std::string& key = known.emplace_back(field.name);
     if (!object.contains(key)) return;
+    auto& member = settings.*field.member;
     using Member = std::remove_reference_t<decltype(member)>;
     if constexpr (meshes::HasFields<Member>) {
       read_fields(object.at(key), place + key + ".", member, broken);
-    } else if constexpr (meshes::HasListedFields<Member>) {
+    } else if constexpr (requires { requires meshes::HasFields<typename Member::value_type>; }) {
       const Json& list = object.at(key);
       if (!list.is_array()) return refuse(key, list, "must be a list");
       member.resize(list.size());

@@ -107,11 +107,9 @@ struct ReferenceJob {
   std::vector<meshes::Violation> violations() const;
 };
 
-constexpr auto fields_of(const ReferenceJob*) {
-  return FINGERTIP_FIELDS(ReferenceJob, analysis, geometry, rubber, protocol, strain, symmetry,
-                          modes, degree, volumetric, refinement, tolerance, max_unknowns,
-                          estimate_error, solver, solver_tolerance, write_fields, field_sectors);
-}
+FINGERTIP_FIELDS(ReferenceJob, analysis, geometry, rubber, protocol, strain, symmetry, modes,
+                 degree, volumetric, refinement, tolerance, max_unknowns, estimate_error, solver,
+                 solver_tolerance, write_fields, field_sectors);
 
 /// JSON in and out (file `job.json` in the run folder). The surface of a solid, of which the job
 /// has a digest, stands beside it in `solid.json`. Reading throws InvalidInput with the file and

@@ -17,6 +17,7 @@ struct ContactPoint {
   double radius = 0.0;
   double pressure = 0.0;  ///< nodal force over lumped area (large strain: current area) [Pa]
 };
+FINGERTIP_FIELDS(ContactPoint, radius, pressure);
 
 /// What a sample cost.
 struct PressEffort {
@@ -41,25 +42,20 @@ struct PressState : meshes::PressSample, PressEffort {
   double order = meshes::unknown;  ///< of that convergence
 };
 /// An entry of summary.json.
-constexpr auto fields_of(const PressState*) {
-  using meshes::newer;
-  return std::tuple_cat(FINGERTIP_FIELDS(PressState, indentation),
-                        newer(FINGERTIP_FIELDS(PressState, lateral_displacement)),
-                        FINGERTIP_FIELDS(PressState, normal_force, contact_radius, max_pressure,
-                                         force_error, convergence, order, min_jacobian),
-                        newer(FINGERTIP_FIELDS(PressState, energy)),
-                        FINGERTIP_FIELDS(PressState, steps, newton_iterations,
-                                         active_set_iterations, cg_iterations, active_nodes),
-                        newer(FINGERTIP_FIELDS(PressState, sliding_nodes, node_spacing)),
-                        FINGERTIP_FIELDS(PressState, wall_time));
+consteval auto fields_of(const PressState*) {
+  return FINGERTIP_MEMBERS(PressState, indentation, lateral_displacement, normal_force,
+                           contact_radius, max_pressure, force_error, convergence, order,
+                           min_jacobian, energy, steps, newton_iterations, active_set_iterations,
+                           cg_iterations, active_nodes, sliding_nodes, node_spacing, wall_time)
+      .newer("lateral_displacement energy sliding_nodes node_spacing");
 }
 
 /// The same of a press at speed.
 struct TransientState : PressState {};
-constexpr auto fields_of(const TransientState*) {
-  return FINGERTIP_FIELDS(TransientState, indentation, time, normal_force, contact_radius,
-                          max_pressure, force_error, energy, steps, active_set_iterations,
-                          cg_iterations, active_nodes, wall_time);
+consteval auto fields_of(const TransientState*) {
+  return FINGERTIP_MEMBERS(TransientState, indentation, time, normal_force, contact_radius,
+                           max_pressure, force_error, energy, steps, active_set_iterations,
+                           cg_iterations, active_nodes, wall_time);
 }
 
 /// The mesh on which a press is computed.
@@ -69,5 +65,6 @@ struct MeshSummary {
   std::size_t contact_unknowns = 0;
   LinearSolver solver = LinearSolver::automatic;
 };
+FINGERTIP_FIELDS(MeshSummary, cells, unknowns, contact_unknowns, solver);
 
 }  // namespace fingertip::fem_reference::inline job

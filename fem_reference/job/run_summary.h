@@ -16,10 +16,8 @@ struct MeshEntry {
   std::optional<std::size_t> samples;  ///< pressed on it, of a static press
   double wall_time = meshes::unknown;
 };
-constexpr auto fields_of(const MeshEntry*) {
-  return std::tuple_cat(FINGERTIP_FIELDS(MeshEntry, cells, dofs),
-                        meshes::if_known(FINGERTIP_FIELDS(MeshEntry, samples)),
-                        FINGERTIP_FIELDS(MeshEntry, wall_time));
+consteval auto fields_of(const MeshEntry*) {
+  return FINGERTIP_ALL_MEMBERS(MeshEntry, cells, dofs, samples, wall_time).if_known("samples");
 }
 
 /// summary.json, by the job's `analysis`: static, transient, modes, verification.
@@ -55,27 +53,25 @@ struct RunSummary {
   bool has_mesh() const { return is_transient() || !meshes.empty(); }
   bool tells_error() const { return is_static() || (is_modes() && has_mesh()); }
 };
-constexpr auto fields_of(const RunSummary*) {
-  using meshes::if_known, meshes::only;
-  using Whole = RunSummary;
-  return std::tuple_cat(
-      FINGERTIP_FIELDS(Whole, program, status), if_known(FINGERTIP_FIELDS(Whole, message, reached)),
-      FINGERTIP_FIELDS(Whole, analysis, degree, volumetric, refinement, tolerance, ranks),
-      only(&Whole::presses, FINGERTIP_FIELDS(Whole, contact, strain)),
-      if_known(FINGERTIP_FIELDS(Whole, law)),
-      only(&Whole::is_transient, FINGERTIP_FIELDS(Whole, speed)),
-      only(&Whole::tells_error, FINGERTIP_FIELDS(Whole, worst_relative_error)),
-      only(&Whole::presses, FINGERTIP_FIELDS(Whole, mesh)),
-      only(&Whole::refines, FINGERTIP_FIELDS(Whole, meshes)),
-      only(&Whole::has_pressed, FINGERTIP_FIELDS(Whole, solver)),
-      only(&Whole::has_mesh, FINGERTIP_FIELDS(Whole, cells, dofs)),
-      only(&Whole::has_pressed, FINGERTIP_FIELDS(Whole, contact_unknowns)),
-      only(&Whole::is_transient, FINGERTIP_FIELDS(Whole, time_steps, transient_wall_time,
-                                                  static_meshes, static_mesh_of_transient)),
-      only(&Whole::is_static, FINGERTIP_FIELDS(Whole, contact_node_spacing, samples)),
-      only(&Whole::is_transient, meshes::named("samples", &Whole::transient_samples)),
-      only(&Whole::is_verification, FINGERTIP_FIELDS(Whole, checks, failed_checks)),
-      FINGERTIP_FIELDS(Whole, wall_time, peak_memory));
+consteval auto fields_of(const RunSummary*) {
+  return FINGERTIP_ALL_MEMBERS(RunSummary, program, status, message, reached, analysis, degree,
+                               volumetric, refinement, tolerance, ranks, contact, strain, law,
+                               speed, worst_relative_error, mesh, meshes, solver, cells, dofs,
+                               contact_unknowns, time_steps, transient_wall_time, static_meshes,
+                               static_mesh_of_transient, contact_node_spacing, samples,
+                               transient_samples, checks, failed_checks, wall_time, peak_memory)
+      .only(&RunSummary::presses, "contact strain mesh")
+      .only(&RunSummary::is_transient,
+            "speed time_steps transient_wall_time static_meshes static_mesh_of_transient "
+            "transient_samples")
+      .only(&RunSummary::tells_error, "worst_relative_error")
+      .only(&RunSummary::refines, "meshes")
+      .only(&RunSummary::is_static, "contact_node_spacing samples")
+      .only(&RunSummary::has_pressed, "solver contact_unknowns")
+      .only(&RunSummary::has_mesh, "cells dofs")
+      .only(&RunSummary::is_verification, "checks failed_checks")
+      .if_known("message reached law")
+      .called("transient_samples", "samples");
 }
 
 }  // namespace fingertip::fem_reference::inline job

@@ -4,7 +4,6 @@
 #include <array>
 #include <string>
 
-#include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::fem_reference::inline job {
@@ -23,20 +22,15 @@ struct ConvergenceRow {
   double indicator = meshes::unknown;
   double lateral_displacement = meshes::unknown;
 };
-constexpr auto fields_of(const ConvergenceRow*) {
-  using meshes::field, meshes::Presence;
-  using Row = ConvergenceRow;
-  return std::tuple{field("mesh", &Row::mesh),
-                    field("cells", &Row::cells),
-                    field("unknowns", &Row::unknowns),
-                    field("indentation [m]", &Row::indentation),
-                    field("normal_force [N]", &Row::normal_force),
-                    field("contact_radius [m]", &Row::contact_radius),
-                    field("max_pressure [Pa]", &Row::max_pressure),
-                    field("node_spacing [m]", &Row::node_spacing),
-                    field("energy [J]", &Row::energy),
-                    field("indicator [J]", &Row::indicator, Presence::newer),
-                    field("lateral_displacement [m]", &Row::lateral_displacement, Presence::newer)};
+consteval auto fields_of(const ConvergenceRow*) {
+  return FINGERTIP_ALL_MEMBERS(ConvergenceRow, mesh, cells, unknowns, indentation, normal_force,
+                               contact_radius, max_pressure, node_spacing, energy, indicator,
+                               lateral_displacement)
+      .in("m", "indentation contact_radius node_spacing lateral_displacement")
+      .in("N", "normal_force")
+      .in("Pa", "max_pressure")
+      .in("J", "energy indicator")
+      .newer("indicator lateral_displacement");
 }
 
 /// pressure.csv: a node that is pushed.
@@ -46,12 +40,11 @@ struct PressureRow {
   double pressure = meshes::unknown;
   double lateral_displacement = meshes::unknown;
 };
-constexpr auto fields_of(const PressureRow*) {
-  using meshes::field, meshes::Presence;
-  using Row = PressureRow;
-  return std::tuple{field("indentation [m]", &Row::indentation), field("radius [m]", &Row::radius),
-                    field("pressure [Pa]", &Row::pressure),
-                    field("lateral_displacement [m]", &Row::lateral_displacement, Presence::newer)};
+consteval auto fields_of(const PressureRow*) {
+  return FINGERTIP_ALL_MEMBERS(PressureRow, indentation, radius, pressure, lateral_displacement)
+      .in("m", "indentation radius lateral_displacement")
+      .in("Pa", "pressure")
+      .newer("lateral_displacement");
 }
 
 /// section.csv: a mesh edge in the plane y = 0, or of a whole solid where its surface crosses it,
@@ -60,12 +53,11 @@ struct SectionRow {
   std::array<double, 4> undeformed{};
   std::array<double, 4> deformed{};
 };
-constexpr auto fields_of(const SectionRow*) {
-  using meshes::field;
-  using Row = SectionRow;
-  return std::tuple{
-      field("x1 [m],z1 [m],x2 [m],z2 [m]", &Row::undeformed),
-      field("deformed_x1 [m],deformed_z1 [m],deformed_x2 [m],deformed_z2 [m]", &Row::deformed)};
+consteval auto fields_of(const SectionRow*) {
+  return FINGERTIP_ALL_MEMBERS(SectionRow, undeformed, deformed)
+      .in("m", "undeformed deformed")
+      .called("undeformed", "x1,z1,x2,z2")
+      .called("deformed", "deformed_x1,deformed_z1,deformed_x2,deformed_z2");
 }
 
 /// The state of the whole tip at the end of a time step; transient.csv tells the forces.
@@ -80,12 +72,11 @@ struct TransientStep {
   double work = 0.0;  ///< on the rubber so far, of the plane and where the frame accelerates [J]
   double dissipated_energy = 0.0;  ///< by damping and relaxation so far [J]
 };
-constexpr auto fields_of(const TransientStep*) {
-  using meshes::field;
-  using Row = TransientStep;
-  return std::tuple{field("time [s]", &Row::time), field("indentation [m]", &Row::indentation),
-                    field("normal_force [N]", &Row::normal_force),
-                    field("contact_force [N]", &Row::contact_force)};
+consteval auto fields_of(const TransientStep*) {
+  return FINGERTIP_MEMBERS(TransientStep, time, indentation, normal_force, contact_force)
+      .in("s", "time")
+      .in("m", "indentation")
+      .in("N", "normal_force contact_force");
 }
 
 /// modes.csv: symmetry as `name` of a SymmetryClass has it.
@@ -96,12 +87,9 @@ struct ModeRow {
   std::string symmetry;
   int multiplicity = 0;
 };
-constexpr auto fields_of(const ModeRow*) {
-  using meshes::field;
-  using Row = ModeRow;
-  return std::tuple{field("mode", &Row::mode), field("frequency [Hz]", &Row::frequency),
-                    field("frequency_error [Hz]", &Row::frequency_error),
-                    field("symmetry", &Row::symmetry), field("multiplicity", &Row::multiplicity)};
+consteval auto fields_of(const ModeRow*) {
+  return FINGERTIP_ALL_MEMBERS(ModeRow, mode, frequency, frequency_error, symmetry, multiplicity)
+      .in("Hz", "frequency frequency_error");
 }
 
 }  // namespace fingertip::fem_reference::inline job

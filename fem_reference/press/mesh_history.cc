@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -27,34 +26,13 @@ double edge_scale(const PressState& state) {
   return state.normal_force * share * share;
 }
 
-/// All of a state but its errors: what files tell of it and of its sample, and the rest.
-Json state_to_json(const PressState& state) {
-  Json json = meshes::json_of<Json>(state);
-  json["sample"] = meshes::json_of<Json>(static_cast<const meshes::PressSample&>(state));
-  json["indicator"] = state.indicator;
-  json["contact"] = Json::array();
-  for (const ContactPoint& point : state.contact)
-    json["contact"].push_back({point.radius, point.pressure});
-  return json;
-}
-
-/// What is unknown is null, or not there.
-template <class Struct>
-void take(const Json& json, Struct& into) {
-  meshes::for_each_field<Struct>([&](const auto& field) {
-    const auto found = json.find(std::string(field.name));
-    if (found != json.end() && !found->is_null()) found->get_to(std::invoke(field.member, into));
-  });
-}
-
-PressState state_from_json(const Json& json) {
-  PressState state;
-  take(json.at("sample"), static_cast<meshes::PressSample&>(state));
-  take(json, state);
-  json.at("indicator").get_to(state.indicator);
-  for (const Json& point : json.at("contact"))
-    state.contact.push_back({point.at(0).get<double>(), point.at(1).get<double>()});
-  return state;
+/// Calls use(name, part) for what a checkpoint tells of a state: its entry in summary.json, its row
+/// of response.csv, and the rest.
+void for_each_part(PressState& state, const auto& use) {
+  use("state", state);
+  use("sample", static_cast<meshes::PressSample&>(state));
+  use("indicator", state.indicator);
+  use("contact", state.contact);
 }
 
 }  // namespace
@@ -171,11 +149,11 @@ Json MeshHistory::to_json() const {
   Json all = Json::array();
   for (const MeshRecord& record : meshes_) {
     Json states = Json::array();
-    for (const PressState& state : record.states) states.push_back(state_to_json(state));
-    all.push_back({{"cells", record.mesh.cells},
-                   {"unknowns", record.mesh.unknowns},
-                   {"contact_unknowns", record.mesh.contact_unknowns},
-                   {"solver", int(record.mesh.solver)},
+    for (PressState state : record.states)
+      for_each_part(state, [&json = states.emplace_back()](const char* name, const auto& part) {
+        json[name] = meshes::json_of<Json>(part);
+      });
+    all.push_back({{"mesh", meshes::json_of<Json>(record.mesh)},
                    {"wall_time", record.wall_time},
                    {"states", states}});
   }
@@ -185,13 +163,12 @@ Json MeshHistory::to_json() const {
 MeshHistory MeshHistory::from_json(const Json& json, MeshHistory like) {
   like.meshes_.clear();
   for (const Json& entry : json) {
-    MeshRecord record;
-    record.mesh = {entry.at("cells").get<std::size_t>(), entry.at("unknowns").get<std::size_t>(),
-                   entry.at("contact_unknowns").get<std::size_t>(),
-                   LinearSolver(entry.at("solver").get<int>())};
-    record.wall_time = entry.at("wall_time").get<double>();
-    for (const Json& state : entry.at("states")) record.states.push_back(state_from_json(state));
-    like.meshes_.push_back(std::move(record));
+    MeshRecord& record = like.meshes_.emplace_back();
+    meshes::read_json(entry.at("mesh"), record.mesh);
+    entry.at("wall_time").get_to(record.wall_time);
+    for (const Json& state : entry.at("states"))
+      for_each_part(record.states.emplace_back(),
+                    [&](const char* name, auto& part) { meshes::read_json(state.at(name), part); });
   }
   return like;
 }

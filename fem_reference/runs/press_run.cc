@@ -266,7 +266,7 @@ class PressRun : Run {
     if (first_process()) {
       meshes::write_atomically(next / "run.json", [&](std::ostream& out) {
         out << ordered_json{{"job", text_of(folder_ / "job.json")},
-                            {"meshes", history_.to_json()},
+                            {"history", history_.to_json()},
                             {"step_errors", history_.step_errors()}};
       });
       fs::remove_all(place);
@@ -283,7 +283,7 @@ class PressRun : Run {
       for (const char* candidate : {"checkpoint", "checkpoint.next"}) {
         const auto json =
             ordered_json::parse(text_of(folder_ / candidate / "run.json"), nullptr, false);
-        if (!json.is_object() || !json.contains("meshes") ||
+        if (!json.is_object() || !json.contains("history") ||
             json.value("job", "") != text_of(folder_ / "job.json"))
           continue;
         place = candidate;
@@ -294,7 +294,7 @@ class PressRun : Run {
     if (place.empty()) return false;
     const auto json = ordered_json::parse(from_first_process(text));
     press.load(folder_ / place);
-    history_ = MeshHistory::from_json(json.at("meshes"), empty_history());
+    history_ = MeshHistory::from_json(json.at("history"), empty_history());
     history_.set_step_errors(json.value("step_errors", std::vector<double>()));
     work_.resume(double(press.mesh().unknowns), history_.meshes().size(),
                  history_.finest().states.size());

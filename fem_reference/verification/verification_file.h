@@ -54,23 +54,11 @@ struct VerificationFile {
   bool empty() const { return studies.empty() && checks.empty() && locking.empty(); }
 };
 
-constexpr auto fields_of(const ConvergenceStudy::Mesh*) {
-  return FINGERTIP_FIELDS(ConvergenceStudy::Mesh, h, unknowns, error_l2, error_h1);
-}
-constexpr auto fields_of(const ConvergenceStudy*) {
-  return FINGERTIP_FIELDS(ConvergenceStudy, problem, degree, volumetric, poissons_ratio, meshes,
-                          order_l2, order_h1, expected_l2, expected_h1);
-}
-constexpr auto fields_of(const Check*) {
-  return FINGERTIP_FIELDS(Check, name, quantity, source, value, expected, relative_error, tolerance,
-                          passed);
-}
-constexpr auto fields_of(const LockingPoint*) {
-  return FINGERTIP_FIELDS(LockingPoint, problem, element, poissons_ratio, value, reference,
-                          relative_error);
-}
-constexpr auto fields_of(const VerificationFile*) {
-  return FINGERTIP_FIELDS(VerificationFile, studies, checks, locking);
-}
+FINGERTIP_FIELDS(ConvergenceStudy::Mesh, h, unknowns, error_l2, error_h1);
+FINGERTIP_FIELDS(ConvergenceStudy, problem, degree, volumetric, poissons_ratio, meshes, order_l2,
+                 order_h1, expected_l2, expected_h1);
+FINGERTIP_FIELDS(Check, name, quantity, source, value, expected, relative_error, tolerance, passed);
+FINGERTIP_FIELDS(LockingPoint, problem, element, poissons_ratio, value, reference, relative_error);
+FINGERTIP_FIELDS(VerificationFile, studies, checks, locking);
 
 }  // namespace fingertip::fem_reference::inline verification

@@ -38,31 +38,28 @@ constexpr auto of_finger(auto GraspRow::*member) {
   };
 }
 
-constexpr auto fields_of(const GraspRow*) {
-  using meshes::field;
+consteval auto fields_of(const GraspRow*) {
+  using meshes::Fields, meshes::field;
   using Row = GraspRow;
-  return std::tuple{field("time [s]", &Row::time),
-                    field("phase", &Row::phase),
-                    field("height [m]", &Row::height),
-                    field("velocity [m/s]", &Row::velocity),
-                    field("tilt [rad]", &Row::tilt),
-                    field("finger_height [m]", &Row::finger_height),
-                    field("indentation [m]", &Row::indentation),
-                    field("support_force [N]", &Row::support_force),
-                    field("load [N]", &Row::load),
-                    field("slip [m]", &Row::slip),
-                    field("normal_force_1 [N]", of_finger<0>(&Row::normal)),
-                    field("tangential_force_1 [N]", of_finger<0>(&Row::tangential)),
-                    field("touching_1", of_finger<0>(&Row::touching)),
-                    field("sliding_1", of_finger<0>(&Row::sliding)),
-                    field("normal_force_2 [N]", of_finger<1>(&Row::normal)),
-                    field("tangential_force_2 [N]", of_finger<1>(&Row::tangential)),
-                    field("touching_2", of_finger<1>(&Row::touching)),
-                    field("sliding_2", of_finger<1>(&Row::sliding)),
-                    field("point_friction_1 [N]", of_finger<0>(&Row::point_friction)),
-                    field("inward_friction_1 [N]", of_finger<0>(&Row::inward_friction)),
-                    field("point_friction_2 [N]", of_finger<1>(&Row::point_friction)),
-                    field("inward_friction_2 [N]", of_finger<1>(&Row::inward_friction))};
+  return Fields(field<Row>("time [s]", &Row::time), field<Row>("phase", &Row::phase),
+                field<Row>("height [m]", &Row::height),
+                field<Row>("velocity [m/s]", &Row::velocity), field<Row>("tilt [rad]", &Row::tilt),
+                field<Row>("finger_height [m]", &Row::finger_height),
+                field<Row>("indentation [m]", &Row::indentation),
+                field<Row>("support_force [N]", &Row::support_force),
+                field<Row>("load [N]", &Row::load), field<Row>("slip [m]", &Row::slip),
+                field<Row>("normal_force_1 [N]", of_finger<0>(&Row::normal)),
+                field<Row>("tangential_force_1 [N]", of_finger<0>(&Row::tangential)),
+                field<Row>("touching_1", of_finger<0>(&Row::touching)),
+                field<Row>("sliding_1", of_finger<0>(&Row::sliding)),
+                field<Row>("normal_force_2 [N]", of_finger<1>(&Row::normal)),
+                field<Row>("tangential_force_2 [N]", of_finger<1>(&Row::tangential)),
+                field<Row>("touching_2", of_finger<1>(&Row::touching)),
+                field<Row>("sliding_2", of_finger<1>(&Row::sliding)),
+                field<Row>("point_friction_1 [N]", of_finger<0>(&Row::point_friction)),
+                field<Row>("inward_friction_1 [N]", of_finger<0>(&Row::inward_friction)),
+                field<Row>("point_friction_2 [N]", of_finger<1>(&Row::point_friction)),
+                field<Row>("inward_friction_2 [N]", of_finger<1>(&Row::inward_friction)));
 }
 
 }  // namespace fingertip::lattice::inline grasp

@@ -1,7 +1,6 @@
 /// The trace of a press: trace.csv.
 #pragma once
 
-#include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::lattice::inline press {
@@ -28,27 +27,21 @@ struct TraceRow {
   double elastic_energy = 0.0;      ///< of springs, cells, bond and contact [J]
 };
 
-constexpr auto fields_of(const TraceRow*) {
-  using meshes::field, meshes::Presence;
-  using Row = TraceRow;
-  return std::tuple{field("time [s]", &Row::time),
-                    field("indentation [m]", &Row::indentation),
-                    field("commanded_speed [m/s]", &Row::commanded_speed),
-                    field("speed [m/s]", &Row::speed),
-                    field("tilt [rad]", &Row::tilt),
-                    field("normal_force [N]", &Row::normal_force),
-                    field("lateral_force [N]", &Row::lateral_force),
-                    field("torque [N m]", &Row::torque),
-                    field("command_force [N]", &Row::command_force),
-                    field("plane_force [N]", &Row::plane_force),
-                    field("contact_stiffness [N/m]", &Row::contact_stiffness, Presence::newer),
-                    field("wanted_force [N]", &Row::wanted_force, Presence::newer),
-                    field("force_mode", &Row::force_mode, Presence::newer),
-                    field("anchored", &Row::anchored),
-                    field("sliding", &Row::sliding),
-                    field("particles_kinetic_energy [J]", &Row::kinetic_energy),
-                    field("rod_kinetic_energy [J]", &Row::rod_kinetic_energy),
-                    field("elastic_energy [J]", &Row::elastic_energy)};
+consteval auto fields_of(const TraceRow*) {
+  return FINGERTIP_ALL_MEMBERS(TraceRow, time, indentation, commanded_speed, speed, tilt,
+                               normal_force, lateral_force, torque, command_force, plane_force,
+                               contact_stiffness, wanted_force, force_mode, anchored, sliding,
+                               kinetic_energy, rod_kinetic_energy, elastic_energy)
+      .called("kinetic_energy", "particles_kinetic_energy")
+      .in("s", "time")
+      .in("m", "indentation")
+      .in("m/s", "commanded_speed speed")
+      .in("rad", "tilt")
+      .in("N", "normal_force lateral_force command_force plane_force wanted_force")
+      .in("N m", "torque")
+      .in("N/m", "contact_stiffness")
+      .in("J", "particles_kinetic_energy rod_kinetic_energy elastic_energy")
+      .newer("contact_stiffness wanted_force force_mode");
 }
 
 }  // namespace fingertip::lattice::inline press

@@ -51,6 +51,9 @@ struct Obstacle {
     return (shape == ObstacleShape::cylinder || shape == ObstacleShape::edge) &&
            along == ObstacleAxis::x;
   }
+  /// Whether `along` and `offset` say something.
+  bool has_axis() const { return shape != ObstacleShape::sphere; }
+  bool has_offset() const { return !along_x(); }
   ObstacleForm form() const;
 
   /// Every rule it breaks under a press of `geometry` tilted by `tilt` [rad] to `depth` [m]: among

@@ -87,6 +87,8 @@ struct PressProtocol {
   /// Whether a second phase follows the press: a lateral motion at full depth.
   bool slides_after() const { return lateral_path == LateralPath::after && lateral != 0.0; }
 
+  bool has_obstacle() const { return !obstacle.is_plane(); }
+
   /// Whether some stage of a program goes back up.
   bool goes_back() const;
 

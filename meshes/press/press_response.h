@@ -30,22 +30,16 @@ struct PressSample {
 };
 
 /// The columns of response.csv.
-constexpr auto fields_of(const PressSample*) {
-  using Row = PressSample;
-  return std::tuple{
-      field("indentation [m]", &Row::indentation),
-      field("normal_force [N]", &Row::normal_force),
-      field("lateral_force_x [N]", &Row::lateral_force_x),
-      field("lateral_force_y [N]", &Row::lateral_force_y),
-      field("torque_x [N m]", &Row::torque_x),
-      field("torque_y [N m]", &Row::torque_y),
-      field("torque_z [N m]", &Row::torque_z),
-      field("contact_radius [m]", &Row::contact_radius),
-      field("max_pressure [Pa]", &Row::max_pressure),
-      field("force_error [N]", &Row::force_error),
-      field("time [s]", &Row::time),
-      field("lateral_displacement [m]", &Row::lateral_displacement, Presence::if_known),
-      field("stage", &Row::stage, Presence::if_known)};
+consteval auto fields_of(const PressSample*) {
+  return FINGERTIP_ALL_MEMBERS(PressSample, indentation, normal_force, lateral_force_x,
+                               lateral_force_y, torque_x, torque_y, torque_z, contact_radius,
+                               max_pressure, force_error, time, lateral_displacement, stage)
+      .in("m", "indentation contact_radius lateral_displacement")
+      .in("N", "normal_force lateral_force_x lateral_force_y force_error")
+      .in("N m", "torque_x torque_y torque_z")
+      .in("Pa", "max_pressure")
+      .in("s", "time")
+      .if_known("lateral_displacement stage");
 }
 
 /// A curve of samples by increasing indentation, and then, where a lateral motion follows the

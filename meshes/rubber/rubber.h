@@ -21,6 +21,8 @@ struct Rubber {
 
   std::vector<Violation> violations() const;
 
+  bool has_own_law() const { return energy != StrainEnergy(); }
+
   /// E and G from Lamé's constants G and lambda [Pa].
   void set_lame(double shear, double lambda) {
     youngs_modulus = shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear);

@@ -1,9 +1,8 @@
-/// Settings (fields.h) and what files hold (file_fields.h) as JSON objects, SI, enumerations by
-/// their names.
+/// Structs with fields (file_fields.h) as JSON objects, SI, enumerations by their names.
 ///
 /// Members are numbers, texts, true or false, std::optional (null), std::vector and Eigen's vectors
-/// and matrices (a list of their coefficients), std::map and Entries (an object), structs with
-/// fields of their own, and JSON passed on as it is.
+/// and matrices (a list of their coefficients), std::map and Entries (an object), pointers to what
+/// has a digest `content()`, structs with fields of their own, and JSON passed on as it is.
 #pragma once
 
 #include <cmath>
@@ -21,28 +20,6 @@
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::meshes::inline tables {
-
-/// Settings without units need fields_of alone.
-template <typename T>
-requires HasFileFields<std::remove_const_t<T>>
-void visit_fields(T& settings, auto&& visit) {
-  for_each_field<std::remove_const_t<T>>([&](const auto& field) {
-    visit(std::string(field.name).c_str(), std::invoke(field.member, settings), "");
-  });
-}
-
-/// Whether visit_fields knows the members of `T`.
-template <typename T>
-concept HasFields = requires(T& settings) {
-  visit_fields(settings, [](const char*, auto&, const char*) {});
-};
-
-/// Whether `T` is a list of such structs.
-template <typename T>
-concept HasListedFields = requires {
-  typename T::value_type;
-}
-&&HasFields<typename T::value_type>;
 
 template <typename Value>
 inline constexpr bool is_optional = false;
@@ -68,6 +45,8 @@ bool is_known(const Value& value) {
     return value.has_value();
   else if constexpr (requires { value.empty(); })
     return !value.empty();
+  else if constexpr (requires { value->content(); })
+    return value != nullptr;
   else
     return true;
 }
@@ -75,18 +54,12 @@ bool is_known(const Value& value) {
 /// A value as JSON: null for what is unknown.
 template <typename Json = nlohmann::ordered_json, typename Value>
 Json json_of(const Value& value) {
-  if constexpr (HasFileFields<Value>) {
+  if constexpr (HasFields<Value>) {
     Json object = Json::object();
     for_each_field<Value>([&](const auto& field) {
       const auto& own = std::invoke(field.member, value);
-      if (std::invoke(field.when, value) && (field.presence != Presence::if_known || is_known(own)))
+      if (field.is_in(value) && (field.presence != Presence::if_known || is_known(own)))
         object[std::string(field.name)] = json_of<Json>(own);
-    });
-    return object;
-  } else if constexpr (HasFields<const Value>) {
-    Json object = Json::object();
-    visit_fields(value, [&](const char* key, const auto& member, const char*) {
-      object[key] = json_of<Json>(member);
     });
     return object;
   } else if constexpr (is_optional<Value>) {
@@ -101,12 +74,35 @@ Json json_of(const Value& value) {
     return object;
   } else if constexpr (requires { value.derived(); }) {  // of Eigen
     return std::vector<double>(value.data(), value.data() + value.size());
+  } else if constexpr (requires { value->content(); }) {  // told by its digest
+    return value ? Json(value->content()) : Json();
   } else if constexpr (std::is_enum_v<Value>) {
     return std::string(name(value));
   } else if constexpr (std::is_floating_point_v<Value>) {
     return std::isfinite(value) ? Json(value) : Json();
   } else {
     return value;
+  }
+}
+
+/// What json_of has made of a value, for files that only programs touch; reading what people may
+/// have damaged: studies/files/read_fields.h. Throws nlohmann::json::exception.
+template <typename Json, typename Value>
+void read_json(const Json& json, Value& value) {
+  if constexpr (HasFields<Value>) {
+    for_each_field<Value>([&](const auto& field) {
+      const std::string name(field.name);
+      if (field.presence == Presence::always || json.contains(name))
+        read_json(json.at(name), std::invoke(field.member, value));
+    });
+  } else if constexpr (is_list<Value>) {
+    for (const Json& element : json) read_json(element, value.emplace_back());
+  } else if constexpr (std::is_enum_v<Value>) {
+    value = enumerator<Value>(json.template get<std::string>()).value_or(value);
+  } else if constexpr (std::is_floating_point_v<Value>) {
+    value = json.is_null() ? unknown : json.template get<double>();
+  } else {
+    json.get_to(value);
   }
 }
 

@@ -1,23 +1,27 @@
-/// How members of a struct are called in files of results: one table for those who write them,
-/// those who read them back, and tests.
+/// How members of a struct are called in files: one list for those who write them, those who read
+/// them back, and tests.
 ///
-///     struct Row { double time = unknown; bool held = false; };
-///     constexpr auto fields_of(const Row*) {
-///       return std::tuple{field("time [s]", &Row::time),
-///                         field("held", &Row::held, Presence::newer)};
+///     struct Row { double time = unknown; bool held = false; std::string note; };
+///     FINGERTIP_FIELDS(Row, time, held, note);
+///
+/// or, where the file says it otherwise,
+///
+///     consteval auto fields_of(const Row*) {
+///       return FINGERTIP_ALL_MEMBERS(Row, time, held, note).in("s", "time").if_known("note");
 ///     }
 ///
-/// Settings with units (geometry, rubber) have visit_fields (fields.h) instead: all members,
-/// always, each with its unit. Results are read back long after they were written: a table says
-/// which of its members a file must have, and its names are the titles of columns.
-///
+/// A member that is not listed does not compile; FINGERTIP_MEMBERS lists some of them.
+/// Results are read back long after they were written: a list says which fields a file must have.
 /// Tables of such rows: table_rows.h. JSON objects: fields_json.h. An enumeration stands there by
 /// the name(...) of its values(...).
 #pragma once
 
 #include <algorithm>
-#include <boost/preprocessor/seq/for_each_i.hpp>
+#include <boost/preprocessor/punctuation/remove_parens.hpp>
+#include <boost/preprocessor/seq/enum.hpp>
+#include <boost/preprocessor/seq/transform.hpp>
 #include <boost/preprocessor/variadic/to_seq.hpp>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -37,70 +41,101 @@ enum class Presence {
   if_known,  ///< written where it has a value
 };
 
-/// For fields that every struct of their kind has.
-struct InEveryCase {
-  constexpr bool operator()(const auto& /*whole*/) const { return true; }
-};
-
-template <typename Member, typename When = InEveryCase>
+template <typename Struct, typename Member>
 struct Field {
-  std::string_view name;  ///< with its unit in tables, "time [s]"
-  Member member;          ///< of the struct, or a function from the struct to a reference
+  std::string_view name;  ///< in tables perhaps with its unit, or of several columns: "x [m],y [m]"
+  Member member;          ///< of the struct, or a function of it
+  std::string_view unit = {};  ///< of a column
   Presence presence = Presence::always;
-  When when = {};  ///< the structs that have it; what stands above it in the table is known then
+  bool (Struct::*when)() const = nullptr;  ///< whether a struct has it; null: every one
+
+  /// What stands above it in the list is known then.
+  bool is_in(const Struct& whole) const { return when == nullptr || (whole.*when)(); }
 };
 
-template <typename Member>
-constexpr auto field(std::string_view name, Member member, Presence presence = Presence::always) {
-  return Field<Member>{name, member, presence};
+template <typename Struct, typename Member>
+constexpr Field<Struct, Member> field(std::string_view name, Member member) {
+  return {name, member};
 }
 
-/// Fields that are always there, their names in one text between blanks or commas.
-template <typename... Member>
-constexpr auto named(std::string_view names, Member... members) {
-  const auto next = [&] {
-    const std::string_view word = names.substr(0, names.find_first_of(", "));
-    const std::size_t other = names.find_first_not_of(", ", word.size());
-    names.remove_prefix(std::min(other, names.size()));
-    return word;
-  };
-  return std::tuple{Field<Member>{next(), members}...};
-}
+/// The fields of a struct, and what is changed of those named in one text between blanks.
+template <typename... Field>
+struct Fields {
+  std::tuple<Field...> all;
 
-/// named() of members by the names that they have: FINGERTIP_FIELDS(Mesh, cells, wall_time).
-#define FINGERTIP_FIELDS(Struct, ...)                            \
-  fingertip::meshes::named(#__VA_ARGS__ BOOST_PP_SEQ_FOR_EACH_I( \
-      FINGERTIP_MEMBER, Struct, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__)))
-#define FINGERTIP_MEMBER(r, Struct, i, member) , &Struct::member
+  constexpr explicit Fields(Field... fields) : all(fields...) {}
 
-/// The same fields, all of them newer, or there if known.
-template <typename... Member>
-constexpr auto newer(std::tuple<Field<Member>...> fields) {
-  std::apply([](auto&... field) { ((field.presence = Presence::newer), ...); }, fields);
+  consteval Fields newer(std::string_view names) const {
+    return changed(names, [](auto& field) { field.presence = Presence::newer; });
+  }
+  consteval Fields if_known(std::string_view names) const {
+    return changed(names, [](auto& field) { field.presence = Presence::if_known; });
+  }
+  /// There where `when` is true of the struct, and never otherwise.
+  template <typename Struct>
+  consteval Fields only(bool (Struct::*when)() const, std::string_view names) const {
+    return changed(names, [&](auto& field) { field.when = when; });
+  }
+  /// Columns in this unit.
+  consteval Fields in(std::string_view unit, std::string_view names) const {
+    return changed(names, [&](auto& field) { field.unit = unit; });
+  }
+  /// In files by another name than the member's.
+  consteval Fields called(std::string_view member, std::string_view name) const {
+    return changed(member, [&](auto& field) { field.name = name; });
+  }
+
+ private:
+  consteval Fields changed(std::string_view names, const auto& change) const {
+    Fields result = *this;
+    while (!names.empty()) {
+      const std::string_view name = names.substr(0, names.find(' '));
+      names.remove_prefix(std::min(names.size(), name.size() + 1));
+      bool found = false;
+      const auto change_if_meant = [&](auto& field) {
+        if (field.name == name) change(field), found = true;
+      };
+      std::apply([&](auto&... field) { (change_if_meant(field), ...); }, result.all);
+      if (!found) throw "no field has this name";
+    }
+    return result;
+  }
+};
+
+/// `fields`; the guard names as many members as the struct has.
+consteval auto guarded(auto /*guard*/, auto fields) {
   return fields;
 }
-template <typename... Member>
-constexpr auto if_known(std::tuple<Field<Member>...> fields) {
-  std::apply([](auto&... field) { ((field.presence = Presence::if_known), ...); }, fields);
-  return fields;
-}
 
-/// The same fields, always there when `when`, a member function, is true of the struct, and never
-/// otherwise.
-template <typename When, typename... Member>
-constexpr auto only(When when, std::tuple<Field<Member>...> fields) {
-  return std::apply(
-      [&](const auto&... field) {
-        return std::tuple{Field<Member, When>{field.name, field.member, field.presence, when}...};
-      },
-      fields);
-}
+#define FINGERTIP_MEMBER(r, Struct, member) \
+  ::fingertip::meshes::field<Struct>(#member, &Struct::member)
+#define FINGERTIP_MEMBERS(Struct, ...)           \
+  ::fingertip::meshes::Fields(BOOST_PP_SEQ_ENUM( \
+      BOOST_PP_SEQ_TRANSFORM(FINGERTIP_MEMBER, Struct, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))))
+#define FINGERTIP_ALL_MEMBERS(Struct, ...)                                         \
+  ::fingertip::meshes::guarded(                                                    \
+      [](const Struct& whole_) { [[maybe_unused]] auto& [__VA_ARGS__] = whole_; }, \
+      FINGERTIP_MEMBERS(Struct, __VA_ARGS__))
+/// All but `others`, in parentheses, stand in files.
+#define FINGERTIP_FIELDS_BUT(others, Struct, ...)                                        \
+  consteval auto fields_of(const Struct*) {                                              \
+    return ::fingertip::meshes::guarded(                                                 \
+        [](const Struct& whole_) {                                                       \
+          [[maybe_unused]] auto& [BOOST_PP_REMOVE_PARENS(others), __VA_ARGS__] = whole_; \
+        },                                                                               \
+        FINGERTIP_MEMBERS(Struct, __VA_ARGS__));                                         \
+  }                                                                                      \
+  static_assert(true)
+#define FINGERTIP_FIELDS(Struct, ...)                  \
+  consteval auto fields_of(const Struct*) {            \
+    return FINGERTIP_ALL_MEMBERS(Struct, __VA_ARGS__); \
+  }                                                    \
+  static_assert(true)
 
-/// The table of a struct.
 template <typename Struct>
-constexpr auto fields() {
-  return fields_of(static_cast<const Struct*>(nullptr));
-}
+concept HasFields = requires {
+  fields_of(static_cast<const Struct*>(nullptr));
+};
 
 /// Equal entries of an object, in the order in which they are written.
 template <typename Value>
@@ -120,15 +155,11 @@ struct Entries : std::vector<std::pair<std::string, Value>> {
   }
 };
 
-template <typename Struct>
-concept HasFileFields = requires {
-  fields_of(static_cast<const Struct*>(nullptr));
-};
-
 /// Calls use(field) for each field of a struct.
 template <typename Struct, typename Use>
 void for_each_field(const Use& use) {
-  std::apply([&](const auto&... field) { (use(field), ...); }, fields<Struct>());
+  constexpr auto fields = fields_of(static_cast<const Struct*>(nullptr));
+  std::apply([&](const auto&... field) { (use(field), ...); }, fields.all);
 }
 
 /// The enumerator whose name(...) is `text`, among its values(...).

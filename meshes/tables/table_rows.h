@@ -29,10 +29,16 @@ inline constexpr std::size_t cells_of<std::array<Value, count>> = count;
 template <>
 inline constexpr std::size_t cells_of<Eigen::Vector3d> = 3;
 
-/// The name of one column of a field, "endpoint_x [m],endpoint_y [m],endpoint_z [m]".
-inline std::string column_name(std::string_view names, std::size_t part) {
-  for (; part > 0; --part) names.remove_prefix(names.find(',') + 1);
-  return std::string(names.substr(0, names.find(',')));
+/// The name of one column of a field: of a vector "endpoint_x [m]", unless it has a name for each.
+template <typename Row, typename Member>
+std::string column_name(const Field<Row, Member>& field, std::size_t part) {
+  using Value = std::remove_cvref_t<std::invoke_result_t<Member, Row&>>;
+  std::string_view names = field.name;
+  const bool is_vector = cells_of<Value> == 3 && names.find(',') == names.npos;
+  for (std::size_t i = 0; !is_vector && i < part; ++i) names.remove_prefix(names.find(',') + 1);
+  std::string name(names.substr(0, names.find(',')));
+  if (is_vector) name += std::string("_") + "xyz"[part];
+  return field.unit.empty() ? name : name + " [" + std::string(field.unit) + "]";
 }
 
 /// Calls use(field, part, value_of) for each column; value_of(row) is a reference to its
@@ -50,7 +56,7 @@ void for_each_column(const Use& use) {
             field, part, [&](auto& row) -> auto& { return std::invoke(field.member, row)[part]; });
     }
   };
-  std::apply([&](const auto&... field) { (columns_of(field), ...); }, fields<Row>());
+  for_each_field<Row>(columns_of);
 }
 
 /// Names of the columns, in their order; those alone that every file has when `always`.
@@ -58,8 +64,7 @@ template <typename Row>
 std::vector<std::string> column_names(bool always = false) {
   std::vector<std::string> names;
   for_each_column<Row>([&](const auto& field, std::size_t part, const auto&) {
-    if (!always || field.presence == Presence::always)
-      names.push_back(column_name(field.name, part));
+    if (!always || field.presence == Presence::always) names.push_back(column_name(field, part));
   });
   return names;
 }
@@ -96,7 +101,7 @@ void write_rows(const std::vector<Row>& rows, const std::filesystem::path& file)
       shown.push_back(field.presence != Presence::if_known ||
                       std::any_of(rows.begin(), rows.end(),
                                   [&](const Row& row) { return !cell_of(value_of(row)).empty(); }));
-      if (shown.back()) out << std::exchange(separator, ",") << column_name(field.name, part);
+      if (shown.back()) out << std::exchange(separator, ",") << column_name(field, part);
     });
     for (const Row& row : rows) {
       std::size_t place = 0;
@@ -159,7 +164,7 @@ template <typename Row>
 std::vector<Row> known_rows(const CsvTable& table) {
   std::vector<Row> rows(table.rows.size());
   for_each_column<Row>([&](const auto& field, std::size_t part, const auto& value_of) {
-    const std::string column = column_name(field.name, part);
+    const std::string column = column_name(field, part);
     if (table.has(column)) read_column(table, column, value_of, rows);
   });
   return rows;

@@ -17,10 +17,10 @@ struct MeshQuality {
   double min_scaled_jacobian = unknown;  ///< smallest scaled Jacobian, 1 for a cube or square
   double volume = unknown;  ///< of the straight-sided elements, or the body they sweep [m³]
 };
-constexpr auto fields_of(const MeshQuality*) {
-  return std::tuple_cat(FINGERTIP_FIELDS(MeshQuality, hexahedra),
-                        newer(FINGERTIP_FIELDS(MeshQuality, nodes, min_jacobian)),
-                        FINGERTIP_FIELDS(MeshQuality, min_scaled_jacobian, volume));
+consteval auto fields_of(const MeshQuality*) {
+  return FINGERTIP_ALL_MEMBERS(MeshQuality, hexahedra, nodes, min_jacobian, min_scaled_jacobian,
+                               volume)
+      .newer("nodes min_jacobian");
 }
 
 /// Writes the mesh in MSH 4.1 format with the physical volume `tip` and the physical surfaces

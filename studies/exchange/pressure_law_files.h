@@ -22,15 +22,8 @@ struct PressureLawFile {
   double hydroelastic_modulus = meshes::unknown;  ///< line times extent [Pa]
   std::vector<double> penetration, pressure;      ///< the table
 };
-constexpr auto fields_of(const PressureLawFile*) {
-  using Whole = PressureLawFile;
-  return meshes::named(
-      "finger obstacle contact depth stiffness exponent polynomial line extent "
-      "hydroelastic_modulus penetration pressure",
-      &Whole::finger, &Whole::obstacle, &Whole::contact, &Whole::depth, &Whole::stiffness,
-      &Whole::exponent, &Whole::polynomial, &Whole::line, &Whole::extent,
-      &Whole::hydroelastic_modulus, &Whole::penetration, &Whole::pressure);
-}
+FINGERTIP_FIELDS(PressureLawFile, finger, obstacle, contact, depth, stiffness, exponent, polynomial,
+                 line, extent, hydroelastic_modulus, penetration, pressure);
 
 /// Fits the laws to the first curve and judges them by all: pressure_law.json, pressure_table.csv.
 /// Throws InvalidInput where that curve does not grow.

@@ -17,11 +17,9 @@ struct CriterionEntry {
   double value = meshes::unknown, limit = meshes::unknown;
   bool passed = false;
 };
-constexpr auto fields_of(const CriterionEntry*) {
-  using meshes::named, meshes::newer;
-  using Whole = CriterionEntry;
-  return std::tuple_cat(named("name", &Whole::name), newer(named("measure", &Whole::measure)),
-                        named("value limit passed", &Whole::value, &Whole::limit, &Whole::passed));
+consteval auto fields_of(const CriterionEntry*) {
+  return FINGERTIP_ALL_MEMBERS(CriterionEntry, name, measure, value, limit, passed)
+      .newer("measure");
 }
 
 /// The case's rubber [Pa].
@@ -29,44 +27,26 @@ struct TargetEntry {
   double youngs_modulus = meshes::unknown, shear_modulus = meshes::unknown,
          poissons_ratio = meshes::unknown, bulk_modulus = meshes::unknown;
 };
-constexpr auto fields_of(const TargetEntry*) {
-  using meshes::named;
-  using Whole = TargetEntry;
-  return named("youngs_modulus shear_modulus poissons_ratio bulk_modulus", &Whole::youngs_modulus,
-               &Whole::shear_modulus, &Whole::poissons_ratio, &Whole::bulk_modulus);
-}
+FINGERTIP_FIELDS(TargetEntry, youngs_modulus, shear_modulus, poissons_ratio, bulk_modulus);
 
 /// The continuum that presses are measured against: forces [N] at the case's depths.
 struct ReferenceEntry {
   std::string status;
   std::vector<double> force, relative_force_error;
 };
-constexpr auto fields_of(const ReferenceEntry*) {
-  using meshes::named;
-  using Whole = ReferenceEntry;
-  return named("status force relative_force_error", &Whole::status, &Whole::force,
-               &Whole::relative_force_error);
-}
+FINGERTIP_FIELDS(ReferenceEntry, status, force, relative_force_error);
 
 /// The continuum's code against analytic solutions.
 struct VerificationEntry {
   std::size_t checks = 0, failed_checks = 0;
 };
-constexpr auto fields_of(const VerificationEntry*) {
-  using meshes::named;
-  using Whole = VerificationEntry;
-  return named("checks failed_checks", &Whole::checks, &Whole::failed_checks);
-}
+FINGERTIP_FIELDS(VerificationEntry, checks, failed_checks);
 
 /// The lattice of the core case at rest, by depth.
 struct EquilibriumEntry {
   std::vector<double> hookean_force_error;
 };
-constexpr auto fields_of(const EquilibriumEntry*) {
-  using meshes::named;
-  using Whole = EquilibriumEntry;
-  return named("hookean_force_error", &Whole::hookean_force_error);
-}
+FINGERTIP_FIELDS(EquilibriumEntry, hookean_force_error);
 
 /// A press without a series: constants of its lattice [Pa], of one in time that left a summary, and
 /// errors against what it stands beside.
@@ -76,16 +56,14 @@ struct ModelEntry : ModuliEntry {
   std::vector<double> force_error;
   double relative_l2_force_error = meshes::unknown;
   std::string status;
+
+  bool is_in_time() const { return in_time; }
 };
-constexpr auto fields_of(const ModelEntry*) {
-  using meshes::named, meshes::newer, meshes::only;
-  using Whole = ModelEntry;
-  return std::tuple_cat(
-      only(&Whole::in_time,
-           newer(named("E_100 E_110 E_111 G nu_100 K anisotropy", &Whole::E_100, &Whole::E_110,
-                       &Whole::E_111, &Whole::G, &Whole::nu_100, &Whole::K, &Whole::anisotropy))),
-      named("real_time_factor force_error relative_l2_force_error status", &Whole::real_time_factor,
-            &Whole::force_error, &Whole::relative_l2_force_error, &Whole::status));
+consteval auto fields_of(const ModelEntry*) {
+  return FINGERTIP_MEMBERS(ModelEntry, E_100, E_110, E_111, G, nu_100, K, anisotropy,
+                           real_time_factor, force_error, relative_l2_force_error, status)
+      .only(&ModelEntry::is_in_time, "E_100 E_110 E_111 G nu_100 K anisotropy")
+      .newer("E_100 E_110 E_111 G nu_100 K anisotropy");
 }
 
 /// A series of a study.
@@ -94,12 +72,7 @@ struct SeriesEntry {
   double worst_error = meshes::unknown, finest_error = meshes::unknown, spread = meshes::unknown,
          order = meshes::unknown;
 };
-constexpr auto fields_of(const SeriesEntry*) {
-  using meshes::named;
-  using Whole = SeriesEntry;
-  return named("name worst_error finest_error spread order", &Whole::name, &Whole::worst_error,
-               &Whole::finest_error, &Whole::spread, &Whole::order);
-}
+FINGERTIP_FIELDS(SeriesEntry, name, worst_error, finest_error, spread, order);
 
 /// A continuum of a study.
 struct ContinuumEntry {
@@ -107,24 +80,15 @@ struct ContinuumEntry {
   double youngs_modulus = meshes::unknown, shear_modulus = meshes::unknown,
          poissons_ratio = meshes::unknown;
 };
-constexpr auto fields_of(const ContinuumEntry*) {
-  using meshes::named;
-  using Whole = ContinuumEntry;
-  return named("folder strain contact youngs_modulus shear_modulus poissons_ratio", &Whole::folder,
-               &Whole::strain, &Whole::contact, &Whole::youngs_modulus, &Whole::shear_modulus,
-               &Whole::poissons_ratio);
-}
+FINGERTIP_FIELDS(ContinuumEntry, folder, strain, contact, youngs_modulus, shear_modulus,
+                 poissons_ratio);
 
 /// A part of a budget, by depth.
 struct PartEntry {
   std::string series;
   std::vector<double> share;
 };
-constexpr auto fields_of(const PartEntry*) {
-  using meshes::named;
-  using Whole = PartEntry;
-  return named("series share", &Whole::series, &Whole::share);
-}
+FINGERTIP_FIELDS(PartEntry, series, share);
 
 /// Who has what share of a force error, by depth.
 struct BudgetEntry {
@@ -133,12 +97,7 @@ struct BudgetEntry {
   std::vector<PartEntry> parts;
   std::vector<double> rest;
 };
-constexpr auto fields_of(const BudgetEntry*) {
-  using meshes::named;
-  using Whole = BudgetEntry;
-  return named("name depths total parts rest", &Whole::name, &Whole::depths, &Whole::total,
-               &Whole::parts, &Whole::rest);
-}
+FINGERTIP_FIELDS(BudgetEntry, name, depths, total, parts, rest);
 
 /// A case on variants.
 struct StudyEntry {
@@ -148,44 +107,25 @@ struct StudyEntry {
   std::vector<ContinuumEntry> continua;
   std::vector<BudgetEntry> budgets;
 };
-constexpr auto fields_of(const StudyEntry*) {
-  using meshes::named;
-  using Whole = StudyEntry;
-  return named("x_label count not_converged series continua budgets", &Whole::x_label,
-               &Whole::count, &Whole::not_converged, &Whole::series, &Whole::continua,
-               &Whole::budgets);
-}
+FINGERTIP_FIELDS(StudyEntry, x_label, count, not_converged, series, continua, budgets);
 
 /// A fit of a case.
 struct FitEntry {
   std::string name, folder, model, problem;
 };
-constexpr auto fields_of(const FitEntry*) {
-  using meshes::named;
-  using Whole = FitEntry;
-  return named("name folder model problem", &Whole::name, &Whole::folder, &Whole::model,
-               &Whole::problem);
-}
+FINGERTIP_FIELDS(FitEntry, name, folder, model, problem);
 
 /// What every fit is asked for.
 struct PredictionEntry {
   std::string name;
 };
-constexpr auto fields_of(const PredictionEntry*) {
-  using meshes::named;
-  using Whole = PredictionEntry;
-  return named("name", &Whole::name);
-}
+FINGERTIP_FIELDS(PredictionEntry, name);
 
 /// The rubber that fits are to find.
 struct TruthEntry {
   meshes::Entries<double> parameters;
 };
-constexpr auto fields_of(const TruthEntry*) {
-  using meshes::named;
-  using Whole = TruthEntry;
-  return named("parameters", &Whole::parameters);
-}
+FINGERTIP_FIELDS(TruthEntry, parameters);
 
 /// A case on fits; worst errors: fits × predictions.
 struct TransferEntry {
@@ -194,12 +134,7 @@ struct TransferEntry {
   std::vector<std::vector<double>> worst_error;
   TruthEntry truth;
 };
-constexpr auto fields_of(const TransferEntry*) {
-  using meshes::named;
-  using Whole = TransferEntry;
-  return named("fits predictions worst_error truth", &Whole::fits, &Whole::predictions,
-               &Whole::worst_error, &Whole::truth);
-}
+FINGERTIP_FIELDS(TransferEntry, fits, predictions, worst_error, truth);
 
 /// A press of a case on virtual control; its other measures stand beside these.
 struct PressEntry {
@@ -208,25 +143,17 @@ struct PressEntry {
   std::string status;
   double change = meshes::unknown, force_error = meshes::unknown;
 };
-constexpr auto fields_of(const PressEntry*) {
-  using meshes::if_known, meshes::named;
-  using Whole = PressEntry;
-  return std::tuple_cat(
-      named("series name folder continuum beside pictured status", &Whole::series, &Whole::name,
-            &Whole::folder, &Whole::continuum, &Whole::beside, &Whole::pictured, &Whole::status),
-      if_known(named("change force_error", &Whole::change, &Whole::force_error)));
+consteval auto fields_of(const PressEntry*) {
+  return FINGERTIP_ALL_MEMBERS(PressEntry, series, name, folder, continuum, beside, pictured,
+                               status, change, force_error)
+      .if_known("change force_error");
 }
 
 /// A grasp of a case; its measures stand beside these.
 struct GraspEntry {
   std::string series, name, folder, status;
 };
-constexpr auto fields_of(const GraspEntry*) {
-  using meshes::named;
-  using Whole = GraspEntry;
-  return named("series name folder status", &Whole::series, &Whole::name, &Whole::folder,
-               &Whole::status);
-}
+FINGERTIP_FIELDS(GraspEntry, series, name, folder, status);
 
 /// A fit of laws to material tests, as one law and one test, or all (empty), are measured; see
 /// studies/manual/files.md for the measures.
@@ -235,14 +162,10 @@ struct MaterialRunEntry {
   double fit_error = meshes::unknown, predicted_error = meshes::unknown, outside = meshes::unknown,
          squares_error = meshes::unknown, end_ratio = meshes::unknown;
 };
-constexpr auto fields_of(const MaterialRunEntry*) {
-  using meshes::if_known, meshes::named;
-  using Whole = MaterialRunEntry;
-  return std::tuple_cat(named("series name folder law test status", &Whole::series, &Whole::name,
-                              &Whole::folder, &Whole::law, &Whole::test, &Whole::status),
-                        if_known(named("fit_error predicted_error outside squares_error end_ratio",
-                                       &Whole::fit_error, &Whole::predicted_error, &Whole::outside,
-                                       &Whole::squares_error, &Whole::end_ratio)));
+consteval auto fields_of(const MaterialRunEntry*) {
+  return FINGERTIP_ALL_MEMBERS(MaterialRunEntry, series, name, folder, law, test, status, fit_error,
+                               predicted_error, outside, squares_error, end_ratio)
+      .if_known("fit_error predicted_error outside squares_error end_ratio");
 }
 
 /// summary.json of `validate`, by the kinds of the case's runs.
@@ -267,19 +190,14 @@ struct CaseSummary {
            !presses.empty() || !grasps.empty() || !materials.empty();
   }
 };
-constexpr auto fields_of(const CaseSummary*) {
-  using meshes::if_known, meshes::named, meshes::only;
-  using Whole = CaseSummary;
-  return std::tuple_cat(
-      named("case title description status", &Whole::case_name, &Whole::title, &Whole::description,
-            &Whole::status),
-      if_known(named("target", &Whole::target)),
-      only(&Whole::has_target, named("depths reference", &Whole::depths, &Whole::reference)),
-      if_known(
-          named("verification equilibrium models variants calibration presses grasps materials",
-                &Whole::verification, &Whole::equilibrium, &Whole::models, &Whole::variants,
-                &Whole::calibration, &Whole::presses, &Whole::grasps, &Whole::materials)),
-      named("criteria", &Whole::criteria));
+consteval auto fields_of(const CaseSummary*) {
+  return FINGERTIP_ALL_MEMBERS(CaseSummary, case_name, title, description, status, target, depths,
+                               reference, verification, equilibrium, models, variants, calibration,
+                               presses, grasps, materials, criteria)
+      .called("case_name", "case")
+      .only(&CaseSummary::has_target, "depths reference")
+      .if_known(
+          "target verification equilibrium models variants calibration presses grasps materials");
 }
 
 }  // namespace fingertip::studies::inline files

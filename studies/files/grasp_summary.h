@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::studies::inline files {
@@ -22,19 +21,9 @@ struct GraspSummary {
          held_ratio = meshes::unknown, held_slip = meshes::unknown, coupling = meshes::unknown,
          step = meshes::unknown, simulated_time = meshes::unknown, wall_time = meshes::unknown;
 };
-constexpr auto fields_of(const GraspSummary*) {
-  using meshes::named;
-  using Whole = GraspSummary;
-  return named(
-      "model contact status fate spacing wanted_force least_force least_force_at_rest friction "
-      "lift_height slip_force slip_ratio sliding_ratio momentum_defect lift_off_time held_force "
-      "held_load held_ratio held_slip coupling step simulated_time wall_time",
-      &Whole::model, &Whole::contact, &Whole::status, &Whole::fate, &Whole::spacing,
-      &Whole::wanted_force, &Whole::least_force, &Whole::least_force_at_rest, &Whole::friction,
-      &Whole::lift_height, &Whole::slip_force, &Whole::slip_ratio, &Whole::sliding_ratio,
-      &Whole::momentum_defect, &Whole::lift_off_time, &Whole::held_force, &Whole::held_load,
-      &Whole::held_ratio, &Whole::held_slip, &Whole::coupling, &Whole::step, &Whole::simulated_time,
-      &Whole::wall_time);
-}
+FINGERTIP_FIELDS(GraspSummary, model, contact, status, fate, spacing, wanted_force, least_force,
+                 least_force_at_rest, friction, lift_height, slip_force, slip_ratio, sliding_ratio,
+                 momentum_defect, lift_off_time, held_force, held_load, held_ratio, held_slip,
+                 coupling, step, simulated_time, wall_time);
 
 }  // namespace fingertip::studies::inline files

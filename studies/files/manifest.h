@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::studies::inline files {
@@ -26,16 +25,12 @@ struct Manifest {
 
   bool empty() const { return program.empty(); }
 };
-constexpr auto fields_of(const Manifest*) {
-  using meshes::if_known, meshes::named, meshes::newer;
-  using Whole = Manifest;
-  return std::tuple_cat(
-      named("program version verb", &Whole::program, &Whole::version, &Whole::verb),
-      newer(named("units", &Whole::units)),
-      named("status command_line started finished source_hash input_hash packages host",
-            &Whole::status, &Whole::command_line, &Whole::started, &Whole::finished,
-            &Whole::source_hash, &Whole::input_hash, &Whole::packages, &Whole::host),
-      if_known(named("exit_code error", &Whole::exit_code, &Whole::error)));
+consteval auto fields_of(const Manifest*) {
+  return FINGERTIP_ALL_MEMBERS(Manifest, program, version, verb, units, status, command_line,
+                               started, finished, source_hash, input_hash, packages, host,
+                               exit_code, error)
+      .newer("units")
+      .if_known("exit_code error");
 }
 
 }  // namespace fingertip::studies::inline files

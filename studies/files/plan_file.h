@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "calibration/files/fit_file.h"
-#include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::studies::inline files {
@@ -18,24 +17,14 @@ struct PlannedParameter {
          upper = meshes::unknown;
   std::optional<calibration::PriorEntry> prior;
 };
-constexpr auto fields_of(const PlannedParameter*) {
-  using meshes::named;
-  using Whole = PlannedParameter;
-  return named("name unit value standard_error lower upper prior", &Whole::name, &Whole::unit,
-               &Whole::value, &Whole::standard_error, &Whole::lower, &Whole::upper, &Whole::prior);
-}
+FINGERTIP_FIELDS(PlannedParameter, name, unit, value, standard_error, lower, upper, prior);
 
 /// Two parameters that the presses hardly tell apart.
 struct CollinearEntry {
   std::string first, second;
   double correlation = meshes::unknown, times = meshes::unknown;
 };
-constexpr auto fields_of(const CollinearEntry*) {
-  using meshes::named;
-  using Whole = CollinearEntry;
-  return named("first second correlation times", &Whole::first, &Whole::second, &Whole::correlation,
-               &Whole::times);
-}
+FINGERTIP_FIELDS(CollinearEntry, first, second, correlation, times);
 
 /// A press of a plan.
 struct PlannedPress {
@@ -43,12 +32,7 @@ struct PlannedPress {
   std::size_t points = 0;
   double depth = meshes::unknown, largest_force = meshes::unknown;
 };
-constexpr auto fields_of(const PlannedPress*) {
-  using meshes::named;
-  using Whole = PlannedPress;
-  return named("name condition points depth largest_force", &Whole::name, &Whole::condition,
-               &Whole::points, &Whole::depth, &Whole::largest_force);
-}
+FINGERTIP_FIELDS(PlannedPress, name, condition, points, depth, largest_force);
 
 /// plan.json of `calibrate --plan`.
 struct PlanFile {
@@ -63,15 +47,7 @@ struct PlanFile {
   double wall_time = meshes::unknown;
   std::string statement;
 };
-constexpr auto fields_of(const PlanFile*) {
-  using meshes::named;
-  using Whole = PlanFile;
-  return named(
-      "problem forward noise noise_force rubber presses parameters correlation collinear next "
-      "wall_time statement",
-      &Whole::problem, &Whole::forward, &Whole::noise, &Whole::noise_force, &Whole::rubber,
-      &Whole::presses, &Whole::parameters, &Whole::correlation, &Whole::collinear, &Whole::next,
-      &Whole::wall_time, &Whole::statement);
-}
+FINGERTIP_FIELDS(PlanFile, problem, forward, noise, noise_force, rubber, presses, parameters,
+                 correlation, collinear, next, wall_time, statement);
 
 }  // namespace fingertip::studies::inline files

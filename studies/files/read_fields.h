@@ -12,7 +12,7 @@
 
 namespace fingertip::studies::inline files {
 
-using meshes::HasFileFields, meshes::for_each_field, meshes::is_list, meshes::is_map,
+using meshes::HasFields, meshes::for_each_field, meshes::is_list, meshes::is_map,
     meshes::is_optional, meshes::json_of;
 
 /// Calls read() and collects what is wrong with the file, once per place.
@@ -28,9 +28,9 @@ void collect(std::vector<meshes::Violation>& wrong, const Read& read) {
 /// Puts an entry into `value`. What is missing or damaged is told in `wrong` and stays as it was.
 template <typename Value>
 void read_value(const JsonEntry& entry, Value& value, std::vector<meshes::Violation>& wrong) {
-  if constexpr (HasFileFields<Value>) {
+  if constexpr (HasFields<Value>) {
     for_each_field<Value>([&](const auto& field) {
-      if (!std::invoke(field.when, value)) return;
+      if (!field.is_in(value)) return;
       collect(wrong, [&] {
         if (field.presence == meshes::Presence::always) entry.need(std::string(field.name));
         if (const JsonEntry own = entry.at(std::string(field.name)); own.is_there())

@@ -16,11 +16,7 @@ struct PaceTrialEntry {
   long threads = 1;
   double real_time_factor = meshes::unknown;  ///< in its slowest 10 ms
 };
-constexpr auto fields_of(const PaceTrialEntry*) {
-  using Whole = PaceTrialEntry;
-  return meshes::named("spacing step threads real_time_factor", &Whole::spacing, &Whole::step,
-                       &Whole::threads, &Whole::real_time_factor);
-}
+FINGERTIP_FIELDS(PaceTrialEntry, spacing, step, threads, real_time_factor);
 
 /// real_time.json in a run folder, and `real_time` in summary.json; SI.
 struct RealTimeRecord {
@@ -38,18 +34,11 @@ struct RealTimeRecord {
   std::string force_error_of;  ///< what the errors are of, or why there are none
   std::optional<TransferObstacleEntry> force_error;
 };
-constexpr auto fields_of(const RealTimeRecord*) {
-  using Whole = RealTimeRecord;
-  return std::tuple_cat(
-      meshes::named("asked spacing_asked spacing integrator step threads expected_factor tried "
-                    "trials",
-                    &Whole::asked, &Whole::spacing_asked, &Whole::spacing, &Whole::integrator,
-                    &Whole::step, &Whole::threads, &Whole::expected_factor, &Whole::tried,
-                    &Whole::trials),
-      meshes::if_known(meshes::named("slowest_factor whole_factor", &Whole::slowest_factor,
-                                     &Whole::whole_factor)),
-      meshes::named("force_error_of", &Whole::force_error_of),
-      meshes::if_known(meshes::named("force_error", &Whole::force_error)));
+consteval auto fields_of(const RealTimeRecord*) {
+  return FINGERTIP_ALL_MEMBERS(RealTimeRecord, asked, spacing_asked, spacing, integrator, step,
+                               threads, expected_factor, tried, trials, slowest_factor,
+                               whole_factor, force_error_of, force_error)
+      .if_known("slowest_factor whole_factor force_error");
 }
 
 inline constexpr const char* real_time_name = "real_time.json";

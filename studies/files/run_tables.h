@@ -17,12 +17,10 @@ struct BoundaryRow {
   meshes::Vector3 deformed = meshes::Vector3::Zero();
   bool anchored = false;
 };
-constexpr auto fields_of(const BoundaryRow*) {
-  using meshes::field;
-  using Row = BoundaryRow;
-  return std::tuple{field("x [m],y [m],z [m]", &Row::rest),
-                    field("deformed_x [m],deformed_y [m],deformed_z [m]", &Row::deformed),
-                    field("anchored", &Row::anchored)};
+consteval auto fields_of(const BoundaryRow*) {
+  return FINGERTIP_ALL_MEMBERS(BoundaryRow, rest, deformed, anchored)
+      .in("m", "rest deformed")
+      .called("rest", "x,y,z");
 }
 
 /// boundary_springs.csv: two rows of boundary.csv, counted from 0.
@@ -30,11 +28,7 @@ struct BoundarySpringRow {
   std::size_t i = 0;
   std::size_t j = 0;
 };
-constexpr auto fields_of(const BoundarySpringRow*) {
-  using meshes::field;
-  using Row = BoundarySpringRow;
-  return std::tuple{field("i", &Row::i), field("j", &Row::j)};
-}
+FINGERTIP_FIELDS(BoundarySpringRow, i, j);
 
 /// contact.csv: a point of the true surface that the obstacle holds.
 struct ContactRow {
@@ -42,12 +36,11 @@ struct ContactRow {
   meshes::Vector3 deformed = meshes::Vector3::Zero();
   double pressure = meshes::unknown;
 };
-constexpr auto fields_of(const ContactRow*) {
-  using meshes::field;
-  using Row = ContactRow;
-  return std::tuple{field("x [m],y [m],z [m]", &Row::rest),
-                    field("deformed_x [m],deformed_y [m],deformed_z [m]", &Row::deformed),
-                    field("pressure [Pa]", &Row::pressure)};
+consteval auto fields_of(const ContactRow*) {
+  return FINGERTIP_ALL_MEMBERS(ContactRow, rest, deformed, pressure)
+      .in("m", "rest deformed")
+      .in("Pa", "pressure")
+      .called("rest", "x,y,z");
 }
 
 /// snapshots.csv: rod and plane at a moment of a press.
@@ -62,18 +55,14 @@ struct SnapshotRow {
   meshes::Vector3 plane = meshes::Vector3::Zero();
   meshes::Vector3 normal = meshes::Vector3::Zero();
 };
-constexpr auto fields_of(const SnapshotRow*) {
-  using meshes::field;
-  using Row = SnapshotRow;
-  return std::tuple{field("moment", &Row::moment),
-                    field("time [s]", &Row::time),
-                    field("indentation [m]", &Row::indentation),
-                    field("endpoint_x [m],endpoint_y [m],endpoint_z [m]", &Row::endpoint),
-                    field("turn_x [rad],turn_y [rad],turn_z [rad]", &Row::turn),
-                    field("force_x [N],force_y [N],force_z [N]", &Row::force),
-                    field("torque_x [N m],torque_y [N m],torque_z [N m]", &Row::torque),
-                    field("plane_x [m],plane_y [m],plane_z [m]", &Row::plane),
-                    field("normal_x,normal_y,normal_z", &Row::normal)};
+consteval auto fields_of(const SnapshotRow*) {
+  return FINGERTIP_ALL_MEMBERS(SnapshotRow, moment, time, indentation, endpoint, turn, force,
+                               torque, plane, normal)
+      .in("s", "time")
+      .in("m", "indentation endpoint plane")
+      .in("rad", "turn")
+      .in("N", "force")
+      .in("N m", "torque");
 }
 
 /// snapshot_points.csv: a boundary mass in a row of snapshots.csv, counted from 0.
@@ -82,11 +71,10 @@ struct SnapshotPointRow {
   meshes::Vector3 place = meshes::Vector3::Zero();
   bool held = false;
 };
-constexpr auto fields_of(const SnapshotPointRow*) {
-  using meshes::field;
-  using Row = SnapshotPointRow;
-  return std::tuple{field("snapshot", &Row::snapshot), field("x [m],y [m],z [m]", &Row::place),
-                    field("held", &Row::held)};
+consteval auto fields_of(const SnapshotPointRow*) {
+  return FINGERTIP_ALL_MEMBERS(SnapshotPointRow, snapshot, place, held)
+      .in("m", "place")
+      .called("place", "x,y,z");
 }
 
 /// modes.csv of a lattice: shares of mass and inertia that answer when the rod moves.
@@ -98,12 +86,10 @@ struct LatticeModeRow {
   double inertia = meshes::unknown;
   int waves = 0;
 };
-constexpr auto fields_of(const LatticeModeRow*) {
-  using meshes::field;
-  using Row = LatticeModeRow;
-  return std::tuple{field("mode", &Row::mode),         field("frequency [Hz]", &Row::frequency),
-                    field("motion", &Row::motion),     field("mass_x,mass_y,mass_z", &Row::mass),
-                    field("inertia_z", &Row::inertia), field("waves", &Row::waves)};
+consteval auto fields_of(const LatticeModeRow*) {
+  return FINGERTIP_ALL_MEMBERS(LatticeModeRow, mode, frequency, motion, mass, inertia, waves)
+      .in("Hz", "frequency")
+      .called("inertia", "inertia_z");
 }
 
 /// cubes.csv: what a testing machine tells of a cube of whole cells.
@@ -117,17 +103,11 @@ struct CubeRow {
   double poissons_ratio_100 = meshes::unknown;
   double bulk_modulus = meshes::unknown;
 };
-constexpr auto fields_of(const CubeRow*) {
-  using meshes::field;
-  using Row = CubeRow;
-  return std::tuple{field("model", &Row::model),
-                    field("cells_across", &Row::cells_across),
-                    field("youngs_modulus_100 [Pa]", &Row::youngs_modulus_100),
-                    field("youngs_modulus_110 [Pa]", &Row::youngs_modulus_110),
-                    field("youngs_modulus_111 [Pa]", &Row::youngs_modulus_111),
-                    field("shear_modulus [Pa]", &Row::shear_modulus),
-                    field("poissons_ratio_100", &Row::poissons_ratio_100),
-                    field("bulk_modulus [Pa]", &Row::bulk_modulus)};
+consteval auto fields_of(const CubeRow*) {
+  return FINGERTIP_ALL_MEMBERS(CubeRow, model, cells_across, youngs_modulus_100, youngs_modulus_110,
+                               youngs_modulus_111, shear_modulus, poissons_ratio_100, bulk_modulus)
+      .in("Pa",
+          "youngs_modulus_100 youngs_modulus_110 youngs_modulus_111 shear_modulus bulk_modulus");
 }
 
 /// published_study.csv: a force of the published lattice on another grid.
@@ -140,16 +120,11 @@ struct PublishedStudyRow {
   double normal_force = meshes::unknown;
   double relative_error = meshes::unknown;
 };
-constexpr auto fields_of(const PublishedStudyRow*) {
-  using meshes::field;
-  using Row = PublishedStudyRow;
-  return std::tuple{field("varied", &Row::varied),
-                    field("spacing [m]", &Row::spacing),
-                    field("offset_x,offset_y,offset_z", &Row::offset),
-                    field("ligament_stiffness", &Row::ligament_stiffness),
-                    field("indentation [m]", &Row::indentation),
-                    field("normal_force [N]", &Row::normal_force),
-                    field("relative_error", &Row::relative_error)};
+consteval auto fields_of(const PublishedStudyRow*) {
+  return FINGERTIP_ALL_MEMBERS(PublishedStudyRow, varied, spacing, offset, ligament_stiffness,
+                               indentation, normal_force, relative_error)
+      .in("m", "spacing indentation")
+      .in("N", "normal_force");
 }
 
 /// equilibrium_study.csv: a force of a lattice at rest.
@@ -160,13 +135,11 @@ struct EquilibriumStudyRow {
   double normal_force = meshes::unknown;
   double relative_error = meshes::unknown;
 };
-constexpr auto fields_of(const EquilibriumStudyRow*) {
-  using meshes::field;
-  using Row = EquilibriumStudyRow;
-  return std::tuple{field("model", &Row::model), field("spacing [m]", &Row::spacing),
-                    field("indentation [m]", &Row::indentation),
-                    field("normal_force [N]", &Row::normal_force),
-                    field("relative_error", &Row::relative_error)};
+consteval auto fields_of(const EquilibriumStudyRow*) {
+  return FINGERTIP_ALL_MEMBERS(EquilibriumStudyRow, model, spacing, indentation, normal_force,
+                               relative_error)
+      .in("m", "spacing indentation")
+      .in("N", "normal_force");
 }
 
 /// variants.csv: a force of a study's press beside its continuum's.
@@ -189,26 +162,14 @@ struct VariantRow {
   double wall_time = meshes::unknown;
   std::string status;
 };
-constexpr auto fields_of(const VariantRow*) {
-  using meshes::field;
-  using Row = VariantRow;
-  return std::tuple{field("series", &Row::series),
-                    field("name", &Row::name),
-                    field("x", &Row::x),
-                    field("model", &Row::model),
-                    field("kinematics", &Row::kinematics),
-                    field("contact", &Row::contact),
-                    field("poissons_ratio", &Row::poissons_ratio),
-                    field("spacing [m]", &Row::spacing),
-                    field("continuum", &Row::continuum),
-                    field("indentation [m]", &Row::indentation),
-                    field("normal_force [N]", &Row::normal_force),
-                    field("reference_force [N]", &Row::reference_force),
-                    field("reference_error", &Row::reference_error),
-                    field("relative_error", &Row::relative_error),
-                    field("volume_defect", &Row::volume_defect),
-                    field("wall_time [s]", &Row::wall_time),
-                    field("status", &Row::status)};
+consteval auto fields_of(const VariantRow*) {
+  return FINGERTIP_ALL_MEMBERS(VariantRow, series, name, x, model, kinematics, contact,
+                               poissons_ratio, spacing, continuum, indentation, normal_force,
+                               reference_force, reference_error, relative_error, volume_defect,
+                               wall_time, status)
+      .in("m", "spacing indentation")
+      .in("N", "normal_force reference_force")
+      .in("s", "wall_time");
 }
 
 /// later.csv: a force of a study's press after its first loading, beside its continuum's.
@@ -223,18 +184,13 @@ struct LaterRow {
   double reference_force = meshes::unknown;
   double error = meshes::unknown;  ///< of the force, over the continuum's largest
 };
-constexpr auto fields_of(const LaterRow*) {
-  using meshes::field;
-  using Row = LaterRow;
-  return std::tuple{field("series", &Row::series),
-                    field("name", &Row::name),
-                    field("continuum", &Row::continuum),
-                    field("stage", &Row::stage),
-                    field("time [s]", &Row::time),
-                    field("indentation [m]", &Row::indentation),
-                    field("normal_force [N]", &Row::normal_force),
-                    field("reference_force [N]", &Row::reference_force),
-                    field("error_over_largest_force", &Row::error)};
+consteval auto fields_of(const LaterRow*) {
+  return FINGERTIP_ALL_MEMBERS(LaterRow, series, name, continuum, stage, time, indentation,
+                               normal_force, reference_force, error)
+      .called("error", "error_over_largest_force")
+      .in("s", "time")
+      .in("m", "indentation")
+      .in("N", "normal_force reference_force");
 }
 
 /// transfer.csv: a force that a fit predicts beside the continuum's.
@@ -249,18 +205,11 @@ struct TransferRow {
   double relative_error = meshes::unknown;
   std::string status;
 };
-constexpr auto fields_of(const TransferRow*) {
-  using meshes::field;
-  using Row = TransferRow;
-  return std::tuple{field("fit", &Row::fit),
-                    field("prediction", &Row::prediction),
-                    field("model", &Row::model),
-                    field("indentation [m]", &Row::indentation),
-                    field("normal_force [N]", &Row::normal_force),
-                    field("reference_force [N]", &Row::reference_force),
-                    field("reference_error", &Row::reference_error),
-                    field("relative_error", &Row::relative_error),
-                    field("status", &Row::status)};
+consteval auto fields_of(const TransferRow*) {
+  return FINGERTIP_ALL_MEMBERS(TransferRow, fit, prediction, model, indentation, normal_force,
+                               reference_force, reference_error, relative_error, status)
+      .in("m", "indentation")
+      .in("N", "normal_force reference_force");
 }
 
 }  // namespace fingertip::studies::inline files

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "meshes/press/press_response.h"
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::studies::inline files {
@@ -16,11 +15,7 @@ struct TransferModelEntry {
   /// The longest stretch of samples whose errors are within 5 % [m].
   double carries_from = meshes::unknown, carries_to = meshes::unknown;
 };
-constexpr auto fields_of(const TransferModelEntry*) {
-  using Whole = TransferModelEntry;
-  return meshes::named("model force error carries_from carries_to", &Whole::model, &Whole::force,
-                       &Whole::error, &Whole::carries_from, &Whole::carries_to);
-}
+FINGERTIP_FIELDS(TransferModelEntry, model, force, error, carries_from, carries_to);
 
 struct TransferObstacleEntry {
   std::string obstacle;
@@ -28,22 +23,13 @@ struct TransferObstacleEntry {
   std::vector<double> indentation, force, force_error;  ///< of the continuum at the depths told
   std::vector<TransferModelEntry> models;
 };
-constexpr auto fields_of(const TransferObstacleEntry*) {
-  using Whole = TransferObstacleEntry;
-  return meshes::named("obstacle fitted indentation force force_error models", &Whole::obstacle,
-                       &Whole::fitted, &Whole::indentation, &Whole::force, &Whole::force_error,
-                       &Whole::models);
-}
+FINGERTIP_FIELDS(TransferObstacleEntry, obstacle, fitted, indentation, force, force_error, models);
 
 struct TransferFile {
   std::string format, how;
   std::vector<std::string> lost;
   std::vector<TransferObstacleEntry> obstacles;
 };
-constexpr auto fields_of(const TransferFile*) {
-  using Whole = TransferFile;
-  return meshes::named("format how lost obstacles", &Whole::format, &Whole::how, &Whole::lost,
-                       &Whole::obstacles);
-}
+FINGERTIP_FIELDS(TransferFile, format, how, lost, obstacles);
 
 }  // namespace fingertip::studies::inline files

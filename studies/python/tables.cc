@@ -38,7 +38,7 @@ py::object column_of(const py::object& self, const std::string& name) {
   py::object found;
   meshes::for_each_column<Row>([&](const auto& field, std::size_t part, const auto& value_of) {
     using Value = std::remove_cvref_t<decltype(value_of(rows.front()))>;
-    if (meshes::column_name(field.name, part) != name) return;
+    if (meshes::column_name(field, part) != name) return;
     static const Row none{};
     const Value* first = rows.empty() ? &value_of(none) : &value_of(rows.front());
     found = looking_into<Value>(self, rows, first);

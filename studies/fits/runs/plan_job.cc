@@ -34,11 +34,7 @@ struct PlannedRow {
   std::string press;
   double x = meshes::unknown, force = meshes::unknown, sigma = meshes::unknown;
 };
-constexpr auto fields_of(const PlannedRow*) {
-  using meshes::field;
-  return std::tuple{field("press", &PlannedRow::press), field("x", &PlannedRow::x),
-                    field("force", &PlannedRow::force), field("sigma", &PlannedRow::sigma)};
-}
+FINGERTIP_FIELDS(PlannedRow, press, x, force, sigma);
 
 void write_rows_of(const FitInput& input, const fs::path& file) {
   std::vector<PlannedRow> rows;

@@ -74,9 +74,9 @@ void expect_columns_missed(const fs::path& run, const fs::path& file) {
 template <typename Value>
 void required_entries(const json& content, const json::json_pointer& at, const Value& value,
                       std::set<std::string>& found) {
-  if constexpr (meshes::HasFileFields<Value>) {
+  if constexpr (meshes::HasFields<Value>) {
     meshes::for_each_field<Value>([&](const auto& field) {
-      if (!std::invoke(field.when, value)) return;
+      if (!field.is_in(value)) return;
       const json::json_pointer own = at / std::string(field.name);
       if (field.presence == Presence::always) found.insert(own.to_string());
       if (content.contains(own))
@@ -276,7 +276,7 @@ std::set<std::string> between_backquotes(const std::string& text) {
 /// Names of a struct's fields and of those inside.
 template <typename Value>
 void field_names(std::set<std::string>& names) {
-  if constexpr (meshes::HasFileFields<Value>) {
+  if constexpr (meshes::HasFields<Value>) {
     meshes::for_each_field<Value>([&]<typename Own>(const Own& field) {
       names.insert(std::string(field.name));
       field_names<std::remove_cvref_t<std::invoke_result_t<decltype(field.member), Value&>>>(names);
