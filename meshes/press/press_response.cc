@@ -127,7 +127,10 @@ void PressResponse::write_csv(const std::filesystem::path& file) const {
 }
 
 PressResponse PressResponse::read_csv(const std::filesystem::path& file) {
-  const CsvTable table = meshes::read_csv(file);
+  return of(meshes::read_csv(file));
+}
+
+PressResponse PressResponse::of(const CsvTable& table) {
   check_needed(table);
   std::vector<PressSample> samples = known_rows<PressSample>(table);
   for (std::size_t row = 1; row < samples.size(); ++row) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "meshes/tables/csv_table.h"
 #include "meshes/tables/file_fields.h"
 
 namespace fingertip::meshes::inline press {
@@ -82,6 +83,7 @@ class PressResponse {
   /// that is no number, a truncated row, or indentations that do not increase, unless it is the
   /// lateral displacement that does, or the stage of a program and with it the time.
   static PressResponse read_csv(const std::filesystem::path& file);
+  static PressResponse of(const CsvTable& table);
 
  private:
   std::vector<PressSample> samples_;

@@ -32,9 +32,10 @@ JsonEntry FolderReader::json(const fs::path& file) {
 meshes::PressResponse FolderReader::response(const fs::path& file) {
   if (!is_there(file)) return {};
   return attempt([&] {
-    const auto missing = meshes::missing_columns<meshes::PressSample>(meshes::read_csv(file));
+    const meshes::CsvTable table = meshes::read_csv(file);
+    const auto missing = meshes::missing_columns<meshes::PressSample>(table);
     if (!missing.empty()) note(meshes::InvalidInput(missing));
-    return meshes::PressResponse::read_csv(file);
+    return meshes::PressResponse::of(table);
   });
 }
 
