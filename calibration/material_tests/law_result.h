@@ -27,16 +27,9 @@ enum class TestWeights {
   stress,  ///< the same for all: small stresses count little
   point,   ///< the stress itself, at least 5 % of its test's largest: relative errors
 };
-inline std::string_view name(TestWeights weights) {
-  switch (weights) {
-    case TestWeights::test: return "test";
-    case TestWeights::stress: return "stress";
-    case TestWeights::point: return "point";
-  }
-  return "unknown";
-}
-constexpr auto values(TestWeights) {
-  return std::array{TestWeights::test, TestWeights::stress, TestWeights::point};
+constexpr auto names_of(TestWeights) {
+  using enum TestWeights;
+  return meshes::names<TestWeights>({{test, "test"}, {stress, "stress"}, {point, "point"}});
 }
 
 struct LawFitOptions {

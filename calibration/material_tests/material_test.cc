@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "meshes/base/files.h"
-#include "meshes/base/words.h"
 
 namespace fingertip::calibration::inline material_tests {
 
@@ -29,26 +28,10 @@ bool right_length(std::size_t length, std::size_t points) {
 
 }  // namespace
 
-std::string_view name(TestKind kind) {
-  return meshes::word_of(kind, {"uniaxial", "equibiaxial", "planar", "simple-shear", "volumetric"});
-}
-
-std::string_view name(DeformationMode mode) {
-  return meshes::word_of(mode, {"tension", "compression", "shear"});
-}
-
 DeformationMode mode_of(TestKind kind, double deformation) {
   if (kind != TestKind::uniaxial && kind != TestKind::equibiaxial) return DeformationMode::shear;
   return (kind == TestKind::uniaxial) == (deformation > 1.0) ? DeformationMode::tension
                                                              : DeformationMode::compression;
-}
-
-std::string_view name(StressMeasure measure) {
-  return measure == StressMeasure::nominal ? "nominal" : "true";
-}
-
-std::string_view name(TestCourse course) {
-  return meshes::word_of(course, {"slow", "relaxation", "cycles"});
 }
 
 double StrainPath::at(double when) const {

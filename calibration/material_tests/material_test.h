@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "meshes/base/errors.h"
+#include "meshes/base/names.h"
 #include "meshes/rubber/strain_energy.h"
 
 namespace fingertip::calibration::inline material_tests {
@@ -21,10 +22,14 @@ enum class TestKind {
   simple_shear,  ///< two plates displaced along each other: displacement over height, > 0
   volumetric,    ///< pressed from all sides: volume over volume at rest J
 };
-std::string_view name(TestKind kind);
-constexpr auto values(TestKind) {
+using meshes::name, meshes::values;
+constexpr auto names_of(TestKind) {
   using enum TestKind;
-  return std::array{uniaxial, equibiaxial, planar, simple_shear, volumetric};
+  return meshes::names<TestKind>({{uniaxial, "uniaxial"},
+                                  {equibiaxial, "equibiaxial"},
+                                  {planar, "planar"},
+                                  {simple_shear, "simple-shear"},
+                                  {volumetric, "volumetric"}});
 }
 
 /// How an incompressible body deforms, whatever the test. A column in compression and a sheet that
@@ -34,10 +39,10 @@ enum class DeformationMode {
   compression,  ///< (l, l, l^-2)
   shear,        ///< (l, 1, 1/l), turned in simple shear
 };
-std::string_view name(DeformationMode mode);
-constexpr auto values(DeformationMode) {
+constexpr auto names_of(DeformationMode) {
   using enum DeformationMode;
-  return std::array{tension, compression, shear};
+  return meshes::names<DeformationMode>(
+      {{tension, "tension"}, {compression, "compression"}, {shear, "shear"}});
 }
 /// Of a test of shape at a deformation.
 DeformationMode mode_of(TestKind kind, double deformation);
@@ -45,9 +50,9 @@ DeformationMode mode_of(TestKind kind, double deformation);
 /// Force over the area at rest, or over the area now. In simple shear both are the same; the mean
 /// stress of a volumetric test is the true one whatever is said.
 enum class StressMeasure { nominal, cauchy };
-std::string_view name(StressMeasure measure);
-constexpr auto values(StressMeasure) {
-  return std::array{StressMeasure::nominal, StressMeasure::cauchy};
+constexpr auto names_of(StressMeasure) {
+  using enum StressMeasure;
+  return meshes::names<StressMeasure>({{nominal, "nominal"}, {cauchy, "true"}});
 }
 
 /// How a specimen's deformation goes in time.
@@ -56,9 +61,10 @@ enum class TestCourse {
   relaxation,  ///< brought to a deformation, which is held
   cycles,      ///< any other course
 };
-std::string_view name(TestCourse course);
-constexpr auto values(TestCourse) {
-  return std::array{TestCourse::slow, TestCourse::relaxation, TestCourse::cycles};
+constexpr auto names_of(TestCourse) {
+  using enum TestCourse;
+  return meshes::names<TestCourse>(
+      {{slow, "slow"}, {relaxation, "relaxation"}, {cycles, "cycles"}});
 }
 
 /// A deformation in time, linear from corner to corner. Two corners of one time are a sudden

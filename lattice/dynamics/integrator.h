@@ -1,7 +1,7 @@
 /// How the moving lattice is integrated in time.
 #pragma once
 
-#include <string_view>
+#include "meshes/base/names.h"
 
 namespace fingertip::lattice::inline dynamics {
 
@@ -13,7 +13,15 @@ enum class Integrator {
   mass_scaled,        ///< symplectic Euler with inertia against deformation, at long steps
   energy_controlled,  ///< symplectic Euler, its step chosen by the energy it gains or loses
 };
-std::string_view name(Integrator integrator);
+using meshes::name, meshes::values;
+constexpr auto names_of(Integrator) {
+  using enum Integrator;
+  return meshes::names<Integrator>({{symplectic_euler, "symplectic-euler"},
+                                    {explicit_euler, "explicit-euler"},
+                                    {runge_kutta, "runge-kutta"},
+                                    {mass_scaled, "mass-scaled"},
+                                    {energy_controlled, "energy-controlled"}});
+}
 /// Whether it chooses every step by what the last ones did, not by stability alone.
 bool is_adaptive(Integrator integrator);
 

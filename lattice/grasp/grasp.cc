@@ -8,7 +8,6 @@
 #include <string>
 
 #include "meshes/base/files.h"
-#include "meshes/base/words.h"
 
 namespace fingertip::lattice::inline grasp {
 
@@ -286,10 +285,6 @@ GraspOutcome Grasp::run() {
 }
 
 }  // namespace
-
-std::string_view name(GraspFate fate) {
-  return meshes::word_of(fate, {"unfinished", "held", "dropped", "not lifted"});
-}
 
 std::vector<meshes::Violation> GraspSetup::violations() const {
   std::vector<meshes::Violation> found = hand.block.violations();

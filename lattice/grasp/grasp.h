@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <string_view>
 #include <vector>
 
 #include "lattice/grasp/grasp_table.h"
@@ -32,7 +31,13 @@ enum class GraspFate {
   dropped,     ///< slid by more than the slip limit
   not_lifted,  ///< never left its support
 };
-std::string_view name(GraspFate fate);
+constexpr auto names_of(GraspFate) {
+  using enum GraspFate;
+  return meshes::names<GraspFate>({{unfinished, "unfinished"},
+                                   {held, "held"},
+                                   {dropped, "dropped"},
+                                   {not_lifted, "not lifted"}});
+}
 
 struct GraspOutcome {
   std::vector<GraspRow> rows;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "meshes/base/files.h"
-#include "meshes/base/words.h"
 
 namespace fingertip::lattice::inline grasp {
 
@@ -54,10 +53,6 @@ double GripSettings::lift_time() const {
 
 double GripSettings::lift_acceleration() const {
   return 10.0 / std::sqrt(3.0) * lift_height / (lift_time() * lift_time());
-}
-
-std::string_view name(GripPhase phase) {
-  return meshes::word_of(phase, {"squeeze", "load", "lift", "hold", "release", "done"});
 }
 
 void GripControl::enter(GripPhase phase, double time) {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <array>
-#include <string_view>
 #include <vector>
 
 #include "meshes/base/errors.h"
+#include "meshes/base/names.h"
 #include "meshes/press/press_response.h"
 
 namespace fingertip::lattice::inline grasp {
@@ -35,10 +35,15 @@ enum class GripPhase {
   release,  ///< let the grip force fall slowly
   done,
 };
-std::string_view name(GripPhase phase);
-constexpr auto values(GripPhase) {
-  return std::array{GripPhase::squeeze, GripPhase::load,    GripPhase::lift,
-                    GripPhase::hold,    GripPhase::release, GripPhase::done};
+using meshes::name, meshes::values;
+constexpr auto names_of(GripPhase) {
+  using enum GripPhase;
+  return meshes::names<GripPhase>({{squeeze, "squeeze"},
+                                   {load, "load"},
+                                   {lift, "lift"},
+                                   {hold, "hold"},
+                                   {release, "release"},
+                                   {done, "done"}});
 }
 
 /// What the robot feels once per period.

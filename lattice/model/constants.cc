@@ -2,17 +2,7 @@
 
 #include <cmath>
 
-#include "meshes/base/words.h"
-
 namespace fingertip::lattice::inline model {
-
-std::string_view name(ModelKind kind) {
-  return meshes::word_of(kind, {"published", "central", "hookean", "network"});
-}
-
-std::string_view name(Kinematics kinematics) {
-  return kinematics == Kinematics::small ? "small" : "finite";
-}
 
 SpringConstants published_constants(const meshes::Rubber& rubber, double spacing) {
   const double k1 = rubber.youngs_modulus * spacing;  // E a²/l0 with l0 = a

@@ -1,8 +1,7 @@
 /// The numbers that turn a cubic grid into rubber: spring constants per class and volume constant.
 #pragma once
 
-#include <string_view>
-
+#include "meshes/base/names.h"
 #include "meshes/rubber/rubber.h"
 
 namespace fingertip::lattice::inline model {
@@ -16,15 +15,22 @@ enum class ModelKind {
               ///< springs k1, k2, k3 with a volume constant kappa: exact E, G, nu
   network,    ///< the same at finite strain, with a neo-Hookean energy
 };
+using meshes::name, meshes::values;
+constexpr auto names_of(ModelKind) {
+  using enum ModelKind;
+  return meshes::names<ModelKind>(
+      {{published, "published"}, {central, "central"}, {hookean, "hookean"}, {network, "network"}});
+}
 
 /// How deformation is measured.
 enum class Kinematics {
   small,   ///< springs and cells see the displacement, linearised about the rest state
   finite,  ///< springs see their true length, cells their true volume
 };
-
-std::string_view name(ModelKind kind);
-std::string_view name(Kinematics kinematics);
+constexpr auto names_of(Kinematics) {
+  using enum Kinematics;
+  return meshes::names<Kinematics>({{small, "small"}, {finite, "finite"}});
+}
 
 /// Stiffness per class of neighbour. Axis springs have rest length a, face diagonals a√2, body
 /// diagonals a√3.

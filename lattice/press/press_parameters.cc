@@ -9,7 +9,6 @@
 #include "lattice/model/formulation.h"
 #include "lattice/statics/cut_lattice.h"
 #include "meshes/base/errors.h"
-#include "meshes/base/words.h"
 
 namespace fingertip::lattice::inline press {
 
@@ -94,11 +93,6 @@ void scale(double factor, std::vector<Element>& elements) {
 }
 
 }  // namespace
-
-std::string_view name(PressParameter parameter) {
-  return meshes::word_of(parameter,
-                         {"k1", "k2", "k3", "kappa", "shear_modulus", "lambda", "bond", "contact"});
-}
 
 std::vector<PressParameter> press_parameters(const LatticeSettings& settings) {
   using enum PressParameter;

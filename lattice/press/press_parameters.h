@@ -1,11 +1,11 @@
 /// The material parameters that a static press can be differentiated by.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "lattice/press/press_setup.h"
 #include "lattice/statics/lattice_body.h"
+#include "meshes/base/names.h"
 
 namespace fingertip::lattice::inline press {
 
@@ -22,8 +22,18 @@ enum class PressParameter {
   contact,        ///< LatticeSettings::contact_stiffness
 };
 
-/// The enumerator's name.
-std::string_view name(PressParameter parameter);
+using meshes::name, meshes::values;
+constexpr auto names_of(PressParameter) {
+  using enum PressParameter;
+  return meshes::names<PressParameter>({{k1, "k1"},
+                                        {k2, "k2"},
+                                        {k3, "k3"},
+                                        {kappa, "kappa"},
+                                        {shear_modulus, "shear_modulus"},
+                                        {lambda, "lambda"},
+                                        {bond, "bond"},
+                                        {contact, "contact"}});
+}
 
 /// What a press with these settings depends on: hookean k1, k2, k3, kappa, central without kappa,
 /// network shear_modulus and lambda, all of them bond and contact. Empty for the published lattice,

@@ -23,16 +23,6 @@ std::vector<Vector3> mirrors(int sectors) {
 
 }  // namespace
 
-std::string_view name(Moment moment) {
-  switch (moment) {
-    case Moment::before_contact: return "before contact";
-    case Moment::first_touch: return "first touch";
-    case Moment::half_depth: return "half depth";
-    case Moment::end: return "end";
-  }
-  return "unknown";
-}
-
 ComputedParticles particles_at_rest(const LatticeModel& model) {
   ComputedParticles result;
   for (const std::uint32_t p : model.particles) result.places.push_back(model.rest_position(p));

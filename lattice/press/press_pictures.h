@@ -5,12 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "lattice/model/state.h"
 #include "lattice/press/boundary_view.h"
 #include "lattice/press/press_setup.h"
+#include "meshes/base/names.h"
 
 namespace fingertip::lattice::inline press {
 
@@ -21,7 +21,14 @@ enum class Moment {
   half_depth,
   end,  ///< whatever was reached before
 };
-std::string_view name(Moment moment);
+using meshes::name, meshes::values;
+constexpr auto names_of(Moment) {
+  using enum Moment;
+  return meshes::names<Moment>({{before_contact, "before contact"},
+                                {first_touch, "first touch"},
+                                {half_depth, "half depth"},
+                                {end, "end"}});
+}
 
 struct MomentPicture : FingerPicture {
   Moment moment = Moment::end;

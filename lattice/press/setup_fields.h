@@ -35,17 +35,4 @@ FINGERTIP_FIELDS_BUT((make_controller, threads), PressSetup, geometry, rubber, p
                      rod, controller, controller_identity, follows_path, hardware, duration,
                      gravity, integrator, time_step, tolerance, energy_bound, symmetry);
 
-constexpr auto values(ModelKind) {
-  return std::array{ModelKind::published, ModelKind::central, ModelKind::hookean,
-                    ModelKind::network};
-}
-constexpr auto values(Kinematics) {
-  return std::array{Kinematics::small, Kinematics::finite};
-}
-constexpr auto values(Integrator) {
-  return std::array{Integrator::symplectic_euler, Integrator::explicit_euler,
-                    Integrator::runge_kutta, Integrator::mass_scaled,
-                    Integrator::energy_controlled};
-}
-
 }  // namespace fingertip::lattice::inline press

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "meshes/base/words.h"
 #include "meshes/shape/meridian.h"
 
 namespace fingertip::studies::inline live {
@@ -77,10 +76,6 @@ Json limits_json(const LiveLimits& limits) {
   for (const Slider& slider : sliders) json[slider.name] = span_json(limits.*slider.limits);
   if (limits.contact_force) json["contact_force"] = span_json(*limits.contact_force);
   return json;
-}
-
-std::string_view name(LiveStatus status) {
-  return meshes::word_of(status, {"running", "paused", "failed"});
 }
 
 std::string text_of(const Json& json) {

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "meshes/base/names.h"
 #include "studies/files/shown_units.h"
 #include "studies/live/rig.h"
 
@@ -55,6 +56,11 @@ struct LiveScene {
 };
 
 enum class LiveStatus { running, paused, failed };
+using meshes::name, meshes::values;
+constexpr auto names_of(LiveStatus) {
+  using enum LiveStatus;
+  return meshes::names<LiveStatus>({{running, "running"}, {paused, "paused"}, {failed, "failed"}});
+}
 
 struct LiveState {
   LiveSettings settings;

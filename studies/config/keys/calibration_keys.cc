@@ -1,31 +1,9 @@
 /// The keys of [calibration].
 #include "calibration/material_tests/law_model.h"
-#include "meshes/base/words.h"
 #include "studies/config/keys/key_builders.h"
 #include "studies/config/keys/key_sections.h"
 
 namespace fingertip::studies::inline config::inline keys {
-
-std::string_view name(CalibrationProblem problem) {
-  return meshes::word_of(problem,
-                         {"moduli", "curve", "experiment", "finite-strain", "damping", "material"});
-}
-
-std::string_view name(ShapeKind shape) {
-  return meshes::word_of(shape, {"dome", "profile", "solid"});
-}
-
-std::string_view name(ConstantsSource source) {
-  return meshes::word_of(source, {"auto", "rule", "calibrated", "file"});
-}
-
-std::string_view name(ForwardKind forward) {
-  return forward == ForwardKind::lattice ? "lattice" : "continuum";
-}
-
-std::string_view name(IntervalKind kind) {
-  return meshes::word_of(kind, {"auto", "linear", "profile"});
-}
 
 namespace {
 

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "calibration/material_tests/law_fit.h"
@@ -14,6 +13,7 @@
 #include "lattice/control/control_settings.h"
 #include "lattice/grasp/grasp.h"
 #include "lattice/press/press_setup.h"
+#include "meshes/base/names.h"
 #include "studies/config/shapes/solid_file.h"
 
 namespace fingertip::studies::inline config::inline keys {
@@ -24,9 +24,10 @@ enum class ShapeKind {
   profile,  ///< a body of revolution from a file
   solid,    ///< a closed surface of triangles, or a CAD solid, from a file
 };
-std::string_view name(ShapeKind shape);
-constexpr auto values(ShapeKind) {
-  return std::array{ShapeKind::dome, ShapeKind::profile, ShapeKind::solid};
+using meshes::name, meshes::values;
+constexpr auto names_of(ShapeKind) {
+  using enum ShapeKind;
+  return meshes::names<ShapeKind>({{dome, "dome"}, {profile, "profile"}, {solid, "solid"}});
 }
 
 /// Where the spring constants come from (key lattice.constants).
@@ -36,10 +37,10 @@ enum class ConstantsSource {
   calibrated,  ///< fit to the rubber's moduli (central, hookean)
   file,        ///< a material.toml written by `calibrate`
 };
-std::string_view name(ConstantsSource source);
-constexpr auto values(ConstantsSource) {
-  return std::array{ConstantsSource::automatic, ConstantsSource::rule, ConstantsSource::calibrated,
-                    ConstantsSource::file};
+constexpr auto names_of(ConstantsSource) {
+  using enum ConstantsSource;
+  return meshes::names<ConstantsSource>(
+      {{automatic, "auto"}, {rule, "rule"}, {calibrated, "calibrated"}, {file, "file"}});
 }
 
 /// What `calibrate` fits (key calibration.problem).
@@ -51,17 +52,21 @@ enum class CalibrationProblem {
   damping,        ///< the retardation time
   material,       ///< laws of large strain to material tests
 };
-std::string_view name(CalibrationProblem problem);
-constexpr auto values(CalibrationProblem) {
+constexpr auto names_of(CalibrationProblem) {
   using enum CalibrationProblem;
-  return std::array{moduli, curve, experiment, finite_strain, damping, material};
+  return meshes::names<CalibrationProblem>({{moduli, "moduli"},
+                                            {curve, "curve"},
+                                            {experiment, "experiment"},
+                                            {finite_strain, "finite-strain"},
+                                            {damping, "damping"},
+                                            {material, "material"}});
 }
 
 /// What answers for the press when parameters are varied (key calibration.forward).
 enum class ForwardKind { lattice, continuum };
-std::string_view name(ForwardKind forward);
-constexpr auto values(ForwardKind) {
-  return std::array{ForwardKind::lattice, ForwardKind::continuum};
+constexpr auto names_of(ForwardKind) {
+  using enum ForwardKind;
+  return meshes::names<ForwardKind>({{lattice, "lattice"}, {continuum, "continuum"}});
 }
 
 /// What is known beforehand of a quantity of a rig; SI.
@@ -87,10 +92,10 @@ enum class IntervalKind {
   linear,     ///< of the covariance at the estimates
   profile,    ///< where chi-square, least over the other parameters, has risen
 };
-std::string_view name(IntervalKind kind);
-constexpr auto values(IntervalKind) {
+constexpr auto names_of(IntervalKind) {
   using enum IntervalKind;
-  return std::array{automatic, linear, profile};
+  return meshes::names<IntervalKind>(
+      {{automatic, "auto"}, {linear, "linear"}, {profile, "profile"}});
 }
 
 /// Section [calibration]; the key table says what the entries mean.
@@ -137,10 +142,14 @@ enum class ControllerKind {
   library,   ///< SharedObjectController (studies/control)
   socket,    ///< SocketController (studies/control)
 };
-std::string_view name(ControllerKind kind);
-constexpr auto values(ControllerKind) {
+constexpr auto names_of(ControllerKind) {
   using enum ControllerKind;
-  return std::array{pid, adaptive, force, hybrid, library, socket};
+  return meshes::names<ControllerKind>({{pid, "pid"},
+                                        {adaptive, "adaptive"},
+                                        {force, "force"},
+                                        {hybrid, "hybrid"},
+                                        {library, "library"},
+                                        {socket, "socket"}});
 }
 
 /// What of section [controller] goes beyond the PID. The stiffness schedules are empty here;
@@ -170,11 +179,9 @@ enum class ContinuumLaw {
   b,  ///< VolumetricLaw::full_quadratic
   c,  ///< VolumetricLaw::isochoric_logarithmic
 };
-constexpr std::string_view name(ContinuumLaw law) {
-  return law == ContinuumLaw::a ? "A" : law == ContinuumLaw::b ? "B" : "C";
-}
-constexpr auto values(ContinuumLaw) {
-  return std::array{ContinuumLaw::a, ContinuumLaw::b, ContinuumLaw::c};
+constexpr auto names_of(ContinuumLaw) {
+  using enum ContinuumLaw;
+  return meshes::names<ContinuumLaw>({{a, "A"}, {b, "B"}, {c, "C"}});
 }
 
 /// Section [exchange]: what is handed to another program.

@@ -1,13 +1,8 @@
 /// The keys of [controller] and [hardware].
-#include "meshes/base/words.h"
 #include "studies/config/keys/key_builders.h"
 #include "studies/config/keys/key_sections.h"
 
 namespace fingertip::studies::inline config::inline keys {
-
-std::string_view name(ControllerKind kind) {
-  return meshes::word_of(kind, {"pid", "adaptive", "force", "hybrid", "library", "socket"});
-}
 
 namespace {
 
