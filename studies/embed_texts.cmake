@@ -30,14 +30,13 @@ if(CMAKE_SCRIPT_MODE_FILE)
   return()
 endif()
 
-set(embed_texts_script ${CMAKE_CURRENT_LIST_FILE})
 function(embed_texts library header namespace function)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${function}.cc)
   add_custom_command(
     OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -DHEADER=${header} "-DNAMESPACE=${namespace}" -DFUNCTION=${function}
-            "-DFILES=${ARGN}" -DOUTPUT=${output} -P ${embed_texts_script}
-    DEPENDS ${ARGN} ${embed_texts_script}
+            "-DFILES=${ARGN}" -DOUTPUT=${output} -P ${CMAKE_CURRENT_FUNCTION_LIST_FILE}
+    DEPENDS ${ARGN} ${CMAKE_CURRENT_FUNCTION_LIST_FILE}
     VERBATIM)
   target_sources(${library} PRIVATE ${output})
 endfunction()

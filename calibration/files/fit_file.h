@@ -173,6 +173,9 @@ struct RigFile {
 };
 FINGERTIP_FIELDS(RigFile, touch_offset, compliance, force_offset, drift);
 
+/// A misfit, or a decrease of it, that chance makes less often than this is told by the data.
+inline constexpr double by_no_chance = 1e-3;
+
 /// What freeing a number that the model of a fit leaves out would do (statistics/score_tests.h).
 struct ScoreTest {
   std::string name, of, cause, unit;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "calibration/files/fit_file.h"
-#include "calibration/material/moduli.h"
 #include "lattice/model/constants.h"
 #include "meshes/rubber/rubber.h"
 

@@ -224,7 +224,7 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
   if (const auto sorted = sorted_branches(choice, result.fit.estimates)) {
     const VectorXd start = within_bounds(*sorted, fit.free);
     for (Index i = 0; i < start.size(); ++i) fit.free[std::size_t(i)].start = start(i);
-    fit.other_starts.clear();
+    fit.start_once();
     result.fit = fit_curves(curves, addresses, fit);
   }
   // Squares of the number of points, which a ranking would keep for every law.

@@ -12,7 +12,9 @@ namespace fingertip::calibration::inline moduli {
 
 /// The direction of (k1, k2, k3, kappa), of unit length, along which no modulus of any lattice
 /// changes; in words, its largest component 1.
-inline const Eigen::Vector4d open_direction = Eigen::Vector4d(4.0, -4.0, 3.0, 0.0).normalized();
+inline Eigen::Vector4d open_direction() {
+  return Eigen::Vector4d(4.0, -4.0, 3.0, 0.0).normalized();
+}
 inline constexpr const char* open_direction_words = "k1 + 1, k2 - 1, k3 + 0.75";
 
 struct ModuliFitOptions {

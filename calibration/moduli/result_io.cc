@@ -121,7 +121,7 @@ void write_calibration_json(const ModuliFit& fit, const std::filesystem::path& f
   content.damping = {fit.target.retardation_time};
   content.target = rubber_entry(fit.target);
   content.achieved = fit.achieved;
-  const Eigen::Vector4d& open = open_direction;
+  const Eigen::Vector4d open = open_direction();
   content.unidentifiable = {{open(0), open(1), open(2), open(3), open_direction_words}};
   content.residuals = fit.residuals;
   content.statement = fit_statement(fit);

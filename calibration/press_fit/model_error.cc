@@ -10,6 +10,7 @@
 #include "lattice/model/constants.h"
 #include "lattice/press/setup_fields.h"
 #include "lattice/press/static_press.h"
+#include "meshes/press/press_protocol.h"
 #include "meshes/shape/solid.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/interpolation.h"
@@ -104,10 +105,7 @@ void make_coarse(PressSetup& press) {
       std::min(press.geometry.thickness() / coarse_cells, press.geometry.coarsest_spacing());
   press.rubber.youngs_modulus =
       std::max(press.rubber.youngs_modulus, 2.0 * press.rubber.shear_modulus);
-  const double depth = press.protocol.samples.back();
-  press.protocol.samples.clear();
-  for (std::size_t i = 1; i <= coarse_depths; ++i)
-    press.protocol.samples.push_back(depth * double(i) / double(coarse_depths));
+  press.protocol.samples = meshes::even_depths(press.protocol.samples.back(), coarse_depths);
   press.protocol.depth = press.protocol.samples.back();
 }
 

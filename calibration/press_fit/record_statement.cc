@@ -218,9 +218,6 @@ std::string assumptions(const FitRecord& record) {
   return text;
 }
 
-/// A cause counts as told by data where chance makes its decrease less often than this.
-constexpr double by_no_chance = 1e-3;
-
 /// How much of it there would be: an absurd amount shows that it is not the cause.
 std::string amount_of(const ScoreTest& each) {
   return each.unit == "1" ? percent(each.amount) + " of " + each.share_of

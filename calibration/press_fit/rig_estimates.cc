@@ -14,7 +14,6 @@ namespace {
 
 /// A line y = a + s x, and the standard error of s.
 struct Regression {
-  std::size_t count = 0;
   double slope = 0.0, error = 0.0;
 };
 
@@ -30,7 +29,7 @@ Regression line_through(const std::vector<double>& x, const std::vector<double>&
   const double slope = sxy / sxx;
   for (std::size_t i = 0; i < x.size(); ++i)
     left += std::pow(y[i] - mean_y - slope * (x[i] - mean_x), 2);
-  return {x.size(), slope, std::sqrt(left / ((n - 2.0) * sxx))};
+  return {slope, std::sqrt(left / ((n - 2.0) * sxx))};
 }
 
 }  // namespace

@@ -20,8 +20,7 @@ namespace {
 
 /// The same fit, from `estimates` alone.
 CurveFitOptions warm_started(CurveFitOptions options, const VectorXd& estimates) {
-  options.other_starts.clear();
-  options.reserve_starts.clear();
+  options.start_once();
   for (std::size_t i = 0; i < options.free.size(); ++i) {
     FreeParameter& free = options.free[i];
     free.scale = size_of(free);

@@ -142,9 +142,9 @@ CurveResiduals::CurveResiduals(const std::vector<Curve>& curves,
   std::vector<double> sigma;
   for (const Curve& curve : curves)
     sigma.insert(sigma.end(), curve.sigma.begin(), curve.sigma.end());
-  const Eigen::VectorXd value = all_values(curves);
-  whiten(value, Eigen::Map<const Eigen::VectorXd>(sigma.data(), Index(sigma.size())));
-  noise_ = 0.5 * (whitening_ * (1e-10 * value)).squaredNorm();
+  measured_ = all_values(curves);
+  whiten(measured_, Eigen::Map<const Eigen::VectorXd>(sigma.data(), Index(sigma.size())));
+  noise_ = 0.5 * (whitening_ * (1e-10 * measured_)).squaredNorm();
   priors_ = std::ranges::count_if(options.free, [](const auto& free) { return bool(free.prior); });
   if (!has_sigma_ && options.value_deviation > 0.0) weigh_priors(options.value_deviation);
 }
@@ -248,7 +248,7 @@ const Linearisation& CurveResiduals::at(const Eigen::VectorXd& parameters) {
     now.jacobian.middleRows(row, count) = slopes.jacobian;
     row += count;
   }
-  now.residuals.head(row) -= all_values(*curves_);
+  now.residuals.head(row) -= measured_;
   if (has_sigma_ && options_->model_covariance.size() > 0) {
     now.residuals.head(row) = whitening_ * now.residuals.head(row);
     now.jacobian.topRows(row) = whitening_ * now.jacobian.topRows(row);

@@ -93,6 +93,7 @@ class CurveResiduals {
   Eigen::Index priors_ = 0;
   bool has_sigma_ = false;
   Eigen::MatrixXd whitening_, colouring_;  ///< colouring: the inverse of whitening
+  Eigen::VectorXd measured_;               ///< values of all curves [y]
   double noise_ = 0.0;
   double prior_weight_ = 1.0;  ///< of their rows, in the unit of the residuals
   int evaluations_ = 0, allowed_ = std::numeric_limits<int>::max();

@@ -48,6 +48,8 @@ struct CurveFitOptions {
   /// Start values that are tried, one after the other, while the least of the minima is at a bound
   /// of Poisson's ratio and, where sigma is given, its chi-square is improbable.
   std::vector<Eigen::VectorXd> reserve_starts = {};
+  /// The search begins at free's starts alone.
+  void start_once() { other_starts.clear(), reserve_starts.clear(); }
   /// Width w in sigma of the loss w² (sqrt(1 + r²/w²) - 1), quadratic inside, linear outside; 0:
   /// least squares. Needs sigma.
   double robust_width = 0.0;

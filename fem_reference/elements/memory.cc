@@ -24,19 +24,19 @@ std::unique_ptr<ElementKernel<dim>> make_kernel(const ReferenceJob& job, double 
       meshes::HyperelasticLaw(rubber.energy, shear, volumetric), job.volumetric, carried);
 }
 
-bool FadingStep::set(double duration) {
+bool RelaxationStep::set(double duration) {
   constexpr double round_off = 1e-9;  // of a length divided into equal steps
   if (empty() || std::abs(duration - duration_) <= round_off * duration) return false;
   duration_ = duration;
-  fading_.clear();
+  recursions_.clear();
   for (const meshes::RelaxationBranch& branch : relaxation_.branches)
-    fading_.emplace_back(duration, branch.time);
+    recursions_.emplace_back(duration, branch.time);
   return true;
 }
 
-double FadingStep::stiffening() const {
+double RelaxationStep::stiffening() const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < fading_.size(); ++i) sum += relative_modulus(i) * gain(i);
+  for (std::size_t i = 0; i < recursions_.size(); ++i) sum += relative_modulus(i) * gain(i);
   return sum;
 }
 

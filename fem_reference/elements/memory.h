@@ -2,11 +2,10 @@
 /// side.
 ///
 /// A branch's stress h_i obeys h_i' + h_i/tau_i = s', s the stress after long times, and adds
-/// b_i h_i to it. Over a step in which s changes at a constant rate, h_i' = decay_i h_i + gain_i
-/// (s'
-/// - s), primes at its end (meshes::PronyRecursion): exact for such a step, of second order for
-/// others. So a step is one of an elastic body, s' enlarged by sum b_i gain_i, under a stress that
-/// is known at its start, sum b_i (decay_i h_i - gain_i s).
+/// b_i h_i to it. Over a step in which s changes at a constant rate,
+/// h_i' = decay_i h_i + gain_i (s' - s), primes at its end (meshes::PronyRecursion): exact for such
+/// a step, of second order for others. So a step is one of an elastic body, s' enlarged by sum b_i
+/// gain_i, under a stress that is known at its start, sum b_i (decay_i h_i - gain_i s).
 ///
 /// With `Relaxation::bulk` s is the whole stress, else the part that moduli of shear make: of
 /// lambda = -2G/3 and G at small strain, of W less m/2 h(J)² at large strain. It scales with them,
@@ -30,17 +29,17 @@ std::unique_ptr<ElementKernel<dim>> make_kernel(const ReferenceJob& job, double 
                                                 const PointStresses* carried = nullptr);
 
 /// The recursion of all branches over steps of one length.
-class FadingStep {
+class RelaxationStep {
  public:
-  FadingStep() = default;
-  explicit FadingStep(meshes::Relaxation relaxation) : relaxation_(std::move(relaxation)) {}
+  RelaxationStep() = default;
+  explicit RelaxationStep(meshes::Relaxation relaxation) : relaxation_(std::move(relaxation)) {}
 
   bool empty() const { return relaxation_.empty(); }
   std::size_t size() const { return relaxation_.branches.size(); }
   /// The length of the next steps [s], > 0. False when it is the last one's but for round-off.
   bool set(double duration);
-  double decay(std::size_t i) const { return fading_[i].decay; }
-  double gain(std::size_t i) const { return fading_[i].gain; }
+  double decay(std::size_t i) const { return recursions_[i].decay; }
+  double gain(std::size_t i) const { return recursions_[i].gain; }
   double relative_modulus(std::size_t i) const { return relaxation_.relative_modulus(i); }
   double time(std::size_t i) const { return relaxation_.branches[i].time; }
   /// sum b_i gain_i; 0 before a step is set.
@@ -49,7 +48,7 @@ class FadingStep {
  private:
   meshes::Relaxation relaxation_;
   double duration_ = 0.0;
-  std::vector<meshes::PronyRecursion> fading_;
+  std::vector<meshes::PronyRecursion> recursions_;
 };
 
 /// Small strain: h_i is the stress that the relaxing moduli make of a displacement d_i, d_i' +
@@ -87,7 +86,7 @@ class LinearMemory {
  private:
   Vector sum_of(const auto& factor) const;
 
-  FadingStep step_;
+  RelaxationStep step_;
   std::unique_ptr<ElementKernel<dim>> kernel_;
   std::unique_ptr<LinearSystem> system_;  ///< K_b
   std::vector<Vector> branches_;
@@ -119,7 +118,7 @@ class PointMemory {
 
  private:
   const Body<dim>* body_ = nullptr;
-  FadingStep step_;
+  RelaxationStep step_;
   std::unique_ptr<ElementKernel<dim>> kernel_;  ///< of s
   PointStresses stress_, carried_;
   std::vector<PointStresses> branches_;

@@ -133,10 +133,9 @@ bool ReferenceJob::axisymmetric() const {
 
 std::vector<Violation> ReferenceJob::violations() const {
   std::vector<Violation> broken = geometry.violations();
-  for (const Violation& violation : rubber.violations()) broken.push_back(violation);
+  append(broken, rubber.violations());
   const bool press = analysis == Analysis::static_press || analysis == Analysis::transient;
-  if (press)
-    for (const Violation& violation : protocol.violations(geometry)) broken.push_back(violation);
+  if (press) append(broken, protocol.violations(geometry));
   if (press && protocol.samples.empty())
     broken.push_back({"press.samples", "none", "the continuum is asked for forces at some depths",
                       "name at least one"});

@@ -52,9 +52,9 @@ double contact_edge(const std::vector<ContactPoint>& contact, double node_spacin
 void measure_contact(PressState& state, int nodes_per_ring) {
   std::ranges::sort(state.contact, {}, &ContactPoint::radius);
   state.contact_radius = contact_edge(state.contact, state.node_spacing, nodes_per_ring);
-  state.max_pressure = 0.0;
-  for (const ContactPoint& point : state.contact)
-    state.max_pressure = std::max(state.max_pressure, point.pressure);
+  state.max_pressure = state.contact.empty()
+                           ? 0.0
+                           : std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
 }
 
 }  // namespace fingertip::fem_reference::inline press

@@ -74,16 +74,6 @@ std::string percent(double fraction) {
   return text;
 }
 
-std::string sample_text(const meshes::PressSample& sample) {
-  std::string text =
-      "F = " + to_text(sample.normal_force) + " N at " + to_text(sample.indentation) + " m";
-  if (!std::isnan(sample.time)) text += ", " + to_text(sample.time) + " s";
-  if (sample.lateral_displacement != 0.0)
-    text += ", " + to_text(sample.lateral_force_x) + " N laterally at " +
-            to_text(sample.lateral_displacement) + " m";
-  return text;
-}
-
 class PressRun : Run {
  public:
   PressRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
@@ -266,7 +256,7 @@ class PressRun : Run {
     if (first_process()) {
       meshes::write_atomically(next / "run.json", [&](std::ostream& out) {
         out << ordered_json{{"job", text_of(folder_ / "job.json")},
-                            {"history", history_.to_json()},
+                            {"mesh_history", history_.to_json()},
                             {"step_errors", history_.step_errors()}};
       });
       fs::remove_all(place);
@@ -283,7 +273,7 @@ class PressRun : Run {
       for (const char* candidate : {"checkpoint", "checkpoint.next"}) {
         const auto json =
             ordered_json::parse(text_of(folder_ / candidate / "run.json"), nullptr, false);
-        if (!json.is_object() || !json.contains("history") ||
+        if (!json.is_object() || !json.contains("mesh_history") ||
             json.value("job", "") != text_of(folder_ / "job.json"))
           continue;
         place = candidate;
@@ -294,7 +284,7 @@ class PressRun : Run {
     if (place.empty()) return false;
     const auto json = ordered_json::parse(from_first_process(text));
     press.load(folder_ / place);
-    history_ = MeshHistory::from_json(json.at("history"), empty_history());
+    history_ = MeshHistory::from_json(json.at("mesh_history"), empty_history());
     history_.set_step_errors(json.value("step_errors", std::vector<double>()));
     work_.resume(double(press.mesh().unknowns), history_.meshes().size(),
                  history_.finest().states.size());
@@ -322,8 +312,7 @@ class PressRun : Run {
     if (!history_.meshes().empty()) add_finest(history_.meshes().back().mesh, summary);
     summary.mesh = mesh_quality_;
     for (const MeshRecord& record : history_.meshes())
-      summary.meshes.push_back(
-          {record.mesh.cells, record.mesh.unknowns, record.states.size(), record.wall_time});
+      summary.meshes.push_back(mesh_entry(record.mesh, record.wall_time, record.states.size()));
     if (!best.empty()) summary.contact_node_spacing = best.back().node_spacing;
     summary.samples = best;
     return summary;

@@ -77,8 +77,19 @@ RunSummary summary_head(const RunOutcome& outcome, const ReferenceJob& job) {
   return summary;
 }
 
-MeshEntry mesh_entry(const MeshSummary& mesh, double wall_time) {
-  return {mesh.cells, mesh.unknowns, {}, wall_time};
+MeshEntry mesh_entry(const MeshSummary& mesh, double wall_time,
+                     std::optional<std::size_t> samples) {
+  return {mesh.cells, mesh.unknowns, samples, wall_time};
+}
+
+std::string sample_text(const meshes::PressSample& sample) {
+  std::string text =
+      "F = " + to_text(sample.normal_force) + " N at " + to_text(sample.indentation) + " m";
+  if (!std::isnan(sample.time)) text += ", " + to_text(sample.time) + " s";
+  if (sample.lateral_displacement != 0.0)
+    text += ", " + to_text(sample.lateral_force_x) + " N laterally at " +
+            to_text(sample.lateral_displacement) + " m";
+  return text;
 }
 
 void add_finest(const MeshSummary& mesh, RunSummary& summary) {

@@ -70,7 +70,10 @@ class Run {
 /// job asked for, and the number of processes.
 RunSummary summary_head(const RunOutcome& outcome, const ReferenceJob& job);
 
-MeshEntry mesh_entry(const MeshSummary& mesh, double wall_time);
+MeshEntry mesh_entry(const MeshSummary& mesh, double wall_time,
+                     std::optional<std::size_t> samples = {});
+/// "F = 0.1 N at 0.001 m", with the time and the lateral force where there are any.
+std::string sample_text(const meshes::PressSample& sample);
 /// What the summary of a press tells of its finest mesh.
 void add_finest(const MeshSummary& mesh, RunSummary& summary);
 

@@ -173,10 +173,7 @@ class TransientRun : Run {
       }
     }
     write_tables({RunOutcome::Status::interrupted, ""});
-    progress_.report("press", index + 1, places_.size(),
-                     "F = " + to_text(states_.back().normal_force) + " N at " +
-                         to_text(states_.back().indentation) + " m, " +
-                         to_text(states_.back().time) + " s");
+    progress_.report("press", index + 1, places_.size(), sample_text(states_.back()));
   }
 
   void repeat_with_doubled_steps() {

@@ -29,7 +29,7 @@ using meshes::PhysicalTag;
 constexpr double off_part = 1e-6;
 /// Smallest Jacobian of a cell that is not turned, over the lengths of its tangents: at hidden
 /// edges, and elsewhere, where a cell with straight sides may have 0.03.
-constexpr double min_at_edges = 0.05, least_jacobian = 0.01;
+constexpr double min_at_edges = 0.05, min_jacobian = 0.01;
 /// Newton's method for a place on parabolas, whose coordinates run from 0 to 1.
 constexpr int max_steps = 20;
 constexpr double small_step = 1e-13;
@@ -257,7 +257,7 @@ class BoundarySides {
     std::set<int> turned;
     for (const auto& cell : divided.cell_iterators_on_level(0)) {
       if (!cells.contains(cell->index())) continue;
-      const double least = at_edges.contains(cell->index()) ? min_at_edges : least_jacobian;
+      const double least = at_edges.contains(cell->index()) ? min_at_edges : min_jacobian;
       bool any = is_turned(cell, least);
       for (unsigned c = 0; c < cell->n_children(); ++c) any |= is_turned(cell->child(c), least);
       if (any) turned.insert(cell->index());

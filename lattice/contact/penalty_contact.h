@@ -11,11 +11,11 @@
 #include "lattice/contact/tie_inertia.h"
 #include "lattice/contact/tied_bond.h"
 #include "lattice/kernels/contact_kernel.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/plane.h"
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 #include "meshes/press/press_protocol.h"
 
 namespace fingertip::lattice::inline contact {

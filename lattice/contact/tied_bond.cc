@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "lattice/kernels/sum_in_portions.h"
+#include "lattice/threads/sum_in_portions.h"
 
 namespace fingertip::lattice::inline contact {
 

@@ -9,10 +9,10 @@
 
 #include "lattice/contact/tie_inertia.h"
 #include "lattice/kernels/bond_kernel.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline contact {
 

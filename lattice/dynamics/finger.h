@@ -9,11 +9,11 @@
 #include "lattice/dynamics/integrator.h"
 #include "lattice/dynamics/scaling/mass_scaling.h"
 #include "lattice/forces/forces.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/plane.h"
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline dynamics {
 

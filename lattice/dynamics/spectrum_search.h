@@ -6,9 +6,9 @@
 
 #include "lattice/dynamics/spectrum.h"
 #include "lattice/forces/forces.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline dynamics {
 

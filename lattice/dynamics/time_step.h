@@ -9,10 +9,10 @@
 #include "lattice/dynamics/spectrum.h"
 #include "lattice/dynamics/spectrum_search.h"
 #include "lattice/forces/cell_forces.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 #include "meshes/press/press_response.h"
 
 namespace fingertip::lattice::inline dynamics {

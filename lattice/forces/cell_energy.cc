@@ -2,7 +2,7 @@
 
 #include "lattice/forces/cell_arrays.h"
 #include "lattice/kernels/cell_kernel.h"
-#include "lattice/kernels/sum_in_portions.h"
+#include "lattice/threads/sum_in_portions.h"
 
 namespace fingertip::lattice::inline forces {
 

@@ -1,9 +1,9 @@
 /// Energy of the cells of a lattice, fast.
 #pragma once
 
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/cell_lattice.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline forces {
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "lattice/kernels/cell_kernel.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/cell_lattice.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline forces {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "lattice/forces/cell_energy.h"
-#include "lattice/kernels/sum_in_portions.h"
+#include "lattice/threads/sum_in_portions.h"
 
 namespace fingertip::lattice::inline forces {
 

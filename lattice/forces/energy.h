@@ -1,9 +1,9 @@
 /// Energies of the lattice, of the whole tip where a part is computed; the ligaments' is in bond.h.
 #pragma once
 
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline forces {
 

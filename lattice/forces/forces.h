@@ -4,9 +4,9 @@
 #include "lattice/forces/cell_forces.h"
 #include "lattice/forces/relaxing.h"
 #include "lattice/kernels/kernel.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline forces {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "lattice/kernels/cell_kernel.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline forces {
 

@@ -99,7 +99,7 @@ class Grasp {
   void note_slip(const GraspRow& row);
   void check_momentum(const GraspRow& row);
   void summarise();
-  void report(bool in_any_case);
+  void report();
   [[noreturn]] void give_up(const std::string& why);
 
   const GraspSetup& setup_;
@@ -246,19 +246,20 @@ void Grasp::summarise() {
   outcome_.held_ratio = tangential / force;
 }
 
-void Grasp::report(bool in_any_case) {
+void Grasp::report() {
   if (!observer_) return;
   const Clock::time_point instant = Clock::now();
-  if (!in_any_case && instant - last_report_ < std::chrono::milliseconds(100)) return;
+  if (instant - last_report_ < std::chrono::milliseconds(100)) return;
   last_report_ = instant;
   summarise();
-  if (!observer_(outcome_, in_any_case ? 0.0 : control_.fraction_done(hand_.time()))) {
+  if (!observer_(outcome_, control_.fraction_done(hand_.time()))) {
     throw meshes::Interrupted("the grasp was stopped at " + meshes::to_text(hand_.time()) + " s");
   }
 }
 
 void Grasp::give_up(const std::string& why) {
-  report(true);
+  summarise();
+  if (observer_) observer_(outcome_, 0.0);
   throw meshes::NotConverged(why + " (at " + meshes::to_text(hand_.time()) + " s)");
 }
 
@@ -268,13 +269,13 @@ GraspOutcome Grasp::run() {
     while (outcome_.fate == GraspFate::unfinished) {
       run_period();
       if (control_.phase() == GripPhase::release || control_.phase() == GripPhase::done) break;
-      report(false);
+      report();
     }
     if (outcome_.fate == GraspFate::unfinished) outcome_.fate = GraspFate::held;
     const double end = setup_.grip.slip_limit;
     while (control_.phase() == GripPhase::release && outcome_.rows.back().slip < end) {
       run_period();
-      report(false);
+      report();
     }
   } catch (const CrushedCells& error) {
     give_up(error.what());
@@ -288,7 +289,7 @@ GraspOutcome Grasp::run() {
 
 std::vector<meshes::Violation> GraspSetup::violations() const {
   std::vector<meshes::Violation> found = hand.block.violations();
-  for (const meshes::Violation& violation : grip.violations()) found.push_back(violation);
+  append(found, grip.violations());
   if (!(std::isfinite(hand.gravity) && hand.gravity > 0.0)) {
     found.push_back({"grasp.gravity", meshes::to_text(hand.gravity) + " m/s^2",
                      "lifting needs a weight: gravity must be finite and positive",

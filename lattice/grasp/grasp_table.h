@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "lattice/grasp/grip.h"
 #include "meshes/tables/file_fields.h"

@@ -1,7 +1,6 @@
 /// How a robot grasps: close until the wanted grip force, take up the weight, lift, hold.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "meshes/base/errors.h"

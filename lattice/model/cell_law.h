@@ -18,7 +18,7 @@ struct CellResponse {
   Eigen::Matrix3d mixed = Eigen::Matrix3d::Zero();
 };
 
-/// The law of `invariants` and `stretches`, point by point.
+/// The law of `hyperelastic`, point by point.
 meshes::HyperelasticLaw hyperelastic_law(const CellMaterial& material);
 
 /// The law of a material (kernels/cell_law.h) less what fibres along the edges carry of it, which

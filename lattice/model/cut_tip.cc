@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "meshes/base/errors.h"
@@ -23,10 +22,6 @@ namespace {
 
 /// Surface points lie a third of a spacing apart.
 constexpr double points_per_spacing = 3.0;
-
-void append(std::vector<Violation>& found, const std::vector<Violation>& more) {
-  found.insert(found.end(), more.begin(), more.end());
-}
 
 void check_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSettings& settings,
                int sectors) {

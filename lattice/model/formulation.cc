@@ -81,8 +81,7 @@ Formulation spring_formulation(ModelKind kind, Kinematics kinematics,
 
 std::vector<Violation> cell_violations(const Rubber& rubber, const LatticeSettings& settings) {
   std::vector<Violation> found = rubber.violations();
-  for (Violation& violation : settings.material_violations(rubber))
-    found.push_back(std::move(violation));
+  append(found, settings.material_violations(rubber));
   if (settings.model == ModelKind::published) {
     found.push_back({"lattice.model", "published", "the published lattice has no cells to cut",
                      "choose central, hookean or network"});

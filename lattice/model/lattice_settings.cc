@@ -110,7 +110,7 @@ std::vector<Violation> LatticeSettings::material_violations(const meshes::Rubber
 std::vector<Violation> LatticeSettings::violations(const meshes::Geometry& geometry,
                                                    const meshes::Rubber& rubber) const {
   std::vector<Violation> found = grid_violations(geometry);
-  for (Violation& violation : material_violations(rubber)) found.push_back(std::move(violation));
+  append(found, material_violations(rubber));
   if (model == ModelKind::hookean && kinematics == Kinematics::finite && constants.kappa < 0.0)
     found.push_back({"lattice.kinematics", "finite",
                      "hookean at finite strain needs kappa >= 0 (Poisson's ratio >= 1/4): below, a "

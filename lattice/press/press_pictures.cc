@@ -23,10 +23,10 @@ std::vector<Vector3> mirrors(int sectors) {
 
 }  // namespace
 
-ComputedParticles particles_at_rest(const LatticeModel& model) {
-  ComputedParticles result;
-  for (const std::uint32_t p : model.particles) result.places.push_back(model.rest_position(p));
-  return result;
+std::vector<Vector3> rest_places(const LatticeModel& model) {
+  std::vector<Vector3> places;
+  for (const std::uint32_t p : model.particles) places.push_back(model.rest_position(p));
+  return places;
 }
 
 ComputedParticles particles_of(const Finger& finger) {
@@ -36,7 +36,7 @@ ComputedParticles particles_of(const Finger& finger) {
   for (std::size_t b = 0; b < of_boundary.size(); ++b) of_point[model.boundary[b]] = of_boundary[b];
   ComputedParticles result;
   for (const std::uint32_t p : model.particles) {
-    result.places.emplace_back(model.grid.axes * finger.state().displacement.at(p));
+    result.moved.emplace_back(model.grid.axes * finger.state().displacement.at(p));
     result.held.push_back(of_point[p]);
   }
   return result;
@@ -68,7 +68,7 @@ FingerPicture PressPictures::draw(FingerPicture bare, const ComputedParticles& n
   const Eigen::Matrix3d to_grid = model_->grid.axes.transpose();
   std::vector<std::uint8_t> of_point(model_->points(), 0), of_boundary;
   for (const auto& [particle, point, mirror] : images_) {
-    state_.displacement.set(point, to_grid * (mirror.cwiseProduct(now.places[particle]) + travel));
+    state_.displacement.set(point, to_grid * (mirror.cwiseProduct(now.moved[particle]) + travel));
     of_point[point] = now.held[particle];
   }
   for (const std::uint32_t point : model_->boundary) of_boundary.push_back(of_point[point]);

@@ -43,12 +43,12 @@ struct PressShapes {
 
 /// The particles that a press computes, in the caller's order: world axes.
 struct ComputedParticles {
-  std::vector<meshes::Vector3> places;  ///< at rest, or how far they have moved since [m]
-  std::vector<std::uint8_t> held;       ///< where the plane holds them, as Finger::held(); now
+  std::vector<meshes::Vector3> moved;  ///< how far since rest [m]
+  std::vector<std::uint8_t> held;      ///< where the plane holds them, as Finger::held(); now
 };
-/// Of a finger: its rest, and its present state.
-ComputedParticles particles_at_rest(const LatticeModel& model);
 ComputedParticles particles_of(const Finger& finger);
+/// Their places at rest [m].
+std::vector<meshes::Vector3> rest_places(const LatticeModel& model);
 
 /// Draws a press, of which it computes a part, as the moving lattice of the whole tip, and keeps
 /// the pictures of its moments.

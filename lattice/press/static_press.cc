@@ -271,7 +271,7 @@ FingerPicture StaticPress::drawn() {
   const Vector3 travel = plane.point(0.0) - plane.point(now_.contact.place());
   ComputedParticles particles{{}, std::vector<std::uint8_t>(body_.rest.size(), 0)};
   for (std::size_t p = 0; p < body_.rest.size(); ++p)
-    particles.places.emplace_back(now_.displacement.segment<3>(3 * Eigen::Index(p)));
+    particles.moved.emplace_back(now_.displacement.segment<3>(3 * Eigen::Index(p)));
   for (std::size_t i = 0; i < body_.outer.size(); ++i) {
     if (!(now_.contact.pressure(i, now_.displacement) > 0.0)) continue;
     for (std::size_t c = 0; c < 8; ++c)

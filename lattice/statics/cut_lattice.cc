@@ -149,7 +149,7 @@ LatticeBody body_of(const LatticeModel& model, const Geometry& geometry, const R
   return body;
 }
 
-LatticeBody block_body(const LatticeModel& model) {
+LatticeBody body_of_block(const LatticeModel& model) {
   std::vector<std::uint32_t> number;
   LatticeBody body = springs_of(model, number);
   if (model.cell_lattice.empty()) return body;

@@ -32,7 +32,7 @@ LatticeBody body_of(const LatticeModel& model, const meshes::Geometry& geometry,
                     const meshes::Rubber& rubber);
 
 /// The same of a free block of springs and whole cells (build_block).
-LatticeBody block_body(const LatticeModel& model);
+LatticeBody body_of_block(const LatticeModel& model);
 
 /// A free block of cells[0] x cells[1] x cells[2] whole cells, made like those of build_cut_tip,
 /// with its lowest corner at the origin and its edges along settings.axes; without bond and outer

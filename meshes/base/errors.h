@@ -20,6 +20,11 @@ struct Violation {
 /// "key = value: rule; remedy", the form in which every violation is shown.
 std::string to_string(const Violation& violation);
 
+/// Adds what else is broken.
+inline void append(std::vector<Violation>& found, const std::vector<Violation>& more) {
+  found.insert(found.end(), more.begin(), more.end());
+}
+
 /// The input breaks at least one rule; nothing has been computed.
 class InvalidInput : public std::runtime_error {
  public:

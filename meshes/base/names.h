@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -41,6 +42,14 @@ constexpr auto values(Enum /*any*/) {
   std::array<Enum, table.size()> all{};
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = table[i].first;
   return all;
+}
+
+/// The enumerator whose name(...) is `text`, among its values(...).
+template <typename Enum>
+std::optional<Enum> enumerator(std::string_view text) {
+  for (const Enum value : values(Enum()))
+    if (name(value) == text) return value;
+  return {};
 }
 
 }  // namespace fingertip::meshes::inline base

@@ -190,8 +190,7 @@ std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const
           "the lateral motion must not exceed the tip's radius", "move less far");
   require(lateral_samples > 0, "press.lateral_samples", std::to_string(lateral_samples),
           "a lateral motion needs at least one output", "1 gives its end alone");
-  for (Violation& violation : obstacle.violations(geometry, tilt))
-    found.push_back(std::move(violation));
+  append(found, obstacle.violations(geometry, tilt));
   bool increasing = true;
   double previous = 0.0;
   for (const double sample : samples) {
@@ -204,9 +203,7 @@ std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const
     require(samples.back() == depth, "press.samples", to_text(samples.back()) + " m",
             "the last sample must be the depth of the press", "end the samples at press.depth");
   }
-  if (!program.empty())
-    for (Violation& violation : ProgramRules(*this, geometry).broken())
-      found.push_back(std::move(violation));
+  if (!program.empty()) append(found, ProgramRules(*this, geometry).broken());
   return found;
 }
 
@@ -229,6 +226,12 @@ std::vector<double> default_samples(double depth) {
   }
   samples.push_back(depth);
   return samples;
+}
+
+std::vector<double> even_depths(double depth, std::size_t count) {
+  std::vector<double> depths;
+  for (std::size_t i = 1; i <= count; ++i) depths.push_back(depth * double(i) / double(count));
+  return depths;
 }
 
 }  // namespace fingertip::meshes::inline press

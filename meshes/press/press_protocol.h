@@ -13,7 +13,7 @@
 
 namespace fingertip::meshes::inline press {
 
-/// How the tip and the plane interact (physics: README of this folder).
+/// How the tip and the plane interact (physics: lattice/contact/README.md).
 enum class ContactMode {
   stick,         ///< infinite friction: a surface point is anchored where it first touched
   frictionless,  ///< only the normal gap is held, compressive only
@@ -137,5 +137,7 @@ std::vector<double> depths_on_the_way(const PressProtocol& protocol, double from
 /// Ten output depths [m] for a press to `depth` [m] > 0: 1, 2, 3, 5, 7.5, 10, 15, 20, 25 and 30
 /// thirtieths of it, denser where the force is still strongly curved.
 std::vector<double> default_samples(double depth);
+/// 1/n, 2/n ... 1 of a depth.
+std::vector<double> even_depths(double depth, std::size_t count);
 
 }  // namespace fingertip::meshes::inline press

@@ -32,8 +32,8 @@ std::vector<Violation> Rubber::violations() const {
   require(std::isfinite(retardation_time) && retardation_time >= 0.0, "rubber.retardation_time",
           retardation_time, "s", "tau must be finite and not negative",
           "give the Kelvin-Voigt retardation time, or 0 for no damping");
-  for (Violation& violation : energy.violations()) found.push_back(std::move(violation));
-  for (Violation& violation : relaxation.violations()) found.push_back(std::move(violation));
+  append(found, energy.violations());
+  append(found, relaxation.violations());
   return found;
 }
 

@@ -64,13 +64,14 @@ struct StrainEnergy {
 
   bool operator==(const StrainEnergy&) const = default;
 
+  // Always inline, for kernels of several instruction sets ask: no compiled copy may be shared.
   /// Whether the law sees I1, I2 or l free of the change of volume.
-  bool isochoric() const {
+  [[gnu::always_inline]] bool isochoric() const {
     return volumetric == VolumetricLaw::quadratic ||
            volumetric == VolumetricLaw::isochoric_logarithmic;
   }
   /// Whether h(J) is ln J, not J - 1; the volumetric part is m/2 h².
-  bool logarithmic() const {
+  [[gnu::always_inline]] bool logarithmic() const {
     return volumetric == VolumetricLaw::logarithmic ||
            volumetric == VolumetricLaw::isochoric_logarithmic;
   }

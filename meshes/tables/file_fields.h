@@ -21,7 +21,6 @@
 #include <boost/preprocessor/seq/enum.hpp>
 #include <boost/preprocessor/seq/transform.hpp>
 #include <boost/preprocessor/variadic/to_seq.hpp>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -29,6 +28,8 @@
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include "meshes/base/names.h"
 
 namespace fingertip::meshes::inline tables {
 
@@ -160,14 +161,6 @@ template <typename Struct, typename Use>
 void for_each_field(const Use& use) {
   constexpr auto fields = fields_of(static_cast<const Struct*>(nullptr));
   std::apply([&](const auto&... field) { (use(field), ...); }, fields.all);
-}
-
-/// The enumerator whose name(...) is `text`, among its values(...).
-template <typename Enum>
-std::optional<Enum> enumerator(std::string_view text) {
-  for (const Enum value : values(Enum()))
-    if (name(value) == text) return value;
-  return {};
 }
 
 }  // namespace fingertip::meshes::inline tables

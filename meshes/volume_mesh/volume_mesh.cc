@@ -160,7 +160,7 @@ MeshQuality inspect_tip_mesh(const std::filesystem::path& file) {
 MeshQuality write_tip_mesh(const Geometry& geometry, const TipMeshOptions& options,
                            const std::filesystem::path& file) {
   std::vector<Violation> broken = geometry.violations();
-  for (const Violation& violation : options.violations()) broken.push_back(violation);
+  append(broken, options.violations());
   if (!broken.empty()) throw InvalidInput(broken);
   try {
     return mesh_tip(geometry, options, file);

@@ -13,9 +13,9 @@ namespace fingertip::meshes::inline volume_mesh {
 struct MeshQuality {
   std::size_t hexahedra = 0;  ///< quadrilaterals, of a meridian
   std::size_t nodes = 0;
-  double min_jacobian = unknown;  ///< smallest Jacobian determinant at a corner [m³, meridian m²]
-  double min_scaled_jacobian = unknown;  ///< smallest scaled Jacobian, 1 for a cube or square
-  double volume = unknown;  ///< of the straight-sided elements, or the body they sweep [m³]
+  double min_jacobian = 0.0;  ///< smallest Jacobian determinant at a corner [m³, meridian m²]
+  double min_scaled_jacobian = 0.0;  ///< smallest scaled Jacobian, 1 for a cube or square
+  double volume = 0.0;  ///< of the straight-sided elements, or the body they sweep [m³]
 };
 consteval auto fields_of(const MeshQuality*) {
   return FINGERTIP_ALL_MEMBERS(MeshQuality, hexahedra, nodes, min_jacobian, min_scaled_jacobian,

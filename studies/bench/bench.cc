@@ -7,10 +7,12 @@
 
 #include "lattice/kernels/by_width.h"
 #include "lattice/kernels/kernel.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/bench/continua.h"
 #include "studies/bench/kernels.h"
 #include "studies/bench/presses.h"
 #include "studies/bench/ratios.h"
+#include "studies/files/json_entry.h"
 #include "studies/fits/runs/moduli_job.h"
 #include "studies/jobs/json_file.h"
 #include "studies/jobs/provenance.h"
@@ -37,7 +39,7 @@ ordered_json machine(const BenchPlan& plan) {
   facts["isa_measured"] = isa_of(plan.widest > 0 ? plan.widest : able);
   double load[1] = {meshes::unknown};
   ::getloadavg(load, 1);
-  facts["load_average"] = number_or_null(load[0]);
+  facts["load_average"] = meshes::json_of(load[0]);
   return facts;
 }
 
@@ -68,7 +70,7 @@ ordered_json kernel_part(Session& session, const BenchPlan& plan) {
   };
   const PlannedJob planned{"kernels", job, false};
   session.run(planned);
-  return read_json(session.path_of(planned) / "kernels_all.json");
+  return parse_json(session.path_of(planned) / "kernels_all.json");
 }
 
 /// What errors are measured against.
@@ -82,7 +84,7 @@ PressResponse run_truth(Session& session, const LoadedConfig& loaded, const Benc
   const PlannedJob planned{finite ? "reference" : "reference_small_strain",
                            truth_job(loaded, plan, finite), false};
   const JobResult result = session.run(planned);
-  const auto summary = read_json(session.path_of(planned) / "summary.json");
+  const auto summary = parse_json(session.path_of(planned) / "summary.json");
   times.push_back(
       {{"what", finite ? "continuum reference, law A" : "continuum reference, small strain"},
        {"seconds", summary.at("wall_time")},
@@ -101,7 +103,7 @@ ordered_json static_error(Session& session, const LoadedConfig& loaded, const Be
       static_job(loaded, press, error_depths(plan, 9)), true};
   if (!session.run(planned).ok()) return {};
   const auto response = PressResponse::read_csv(session.path_of(planned) / "response.csv");
-  return number_or_null(worst_force_error(response, truth.finite, plan.error_from, plan.depth));
+  return meshes::json_of(worst_force_error(response, truth.finite, plan.error_from, plan.depth));
 }
 
 ordered_json press_entry(Session& session, const LoadedConfig& loaded, const BenchPlan& plan,
@@ -110,12 +112,12 @@ ordered_json press_entry(Session& session, const LoadedConfig& loaded, const Ben
                            false};
   session.run(planned);
   const fs::path folder = session.path_of(planned);
-  const auto pace = read_json(folder / "pace.json");
+  const auto pace = parse_json(folder / "pace.json");
   const auto response = PressResponse::read_csv(folder / "response.csv");
   const lattice::PressSetup setup = press_setup(press_config(loaded, press, plan.depth));
   const auto error = [&](const std::optional<PressResponse>& against) {
     return against
-               ? number_or_null(worst_force_error(response, *against, plan.error_from, plan.depth))
+               ? meshes::json_of(worst_force_error(response, *against, plan.error_from, plan.depth))
                : ordered_json();
   };
   return {{"model", lattice::name(press.model)},

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "meshes/tables/fields_json.h"
+#include "studies/files/json_entry.h"
 #include "studies/fits/setup/fit_curves.h"
-#include "studies/jobs/json_file.h"
 #include "studies/presses/pace.h"
 #include "studies/presses/press_setup.h"
 #include "studies/presses/reference_job.h"
@@ -62,7 +63,7 @@ nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
                                        const ContinuumMesh& continuum,
                                        const meshes::PressResponse& truth, const BenchPlan& plan,
                                        double period) {
-  const auto summary = read_json(folder / "summary.json");
+  const auto summary = parse_json(folder / "summary.json");
   double seconds = 0.0;
   for (const auto& sample : summary.at("samples")) seconds += sample.at("wall_time").get<double>();
   const double rate = double(summary.at("samples").size()) / seconds;
@@ -73,7 +74,7 @@ nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
           {"solves_per_second", rate},
           {"real_time_factor", rate * period},
           {"worst_force_error",
-           number_or_null(worst_force_error(response, truth, plan.error_from, plan.depth))}};
+           meshes::json_of(worst_force_error(response, truth, plan.error_from, plan.depth))}};
 }
 
 std::string continuum_name(const ContinuumMesh& continuum) {

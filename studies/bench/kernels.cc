@@ -10,10 +10,10 @@
 #include "meshes/press/press_response.h"
 #include "studies/bench/lammps.h"
 #include "studies/exchange/lammps/lammps_program.h"
+#include "studies/files/json_entry.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
 #include "studies/jobs/interrupt.h"
-#include "studies/jobs/json_file.h"
 #include "studies/jobs/provenance.h"
 
 namespace fingertip::studies::inline bench {
@@ -127,7 +127,7 @@ class Programs {
       rounds_.missing["bullet"] = fmt::format("fingertip-bullet ended with {}", code);
       return;
     }
-    const ordered_json found = read_json(log);
+    const ordered_json found = parse_json(log);
     const double springs = found.at("springs");
     add(round, peer("bullet_soft_body", 20, springs,
                     1e9 * found.at("seconds").get<double>() /
@@ -161,7 +161,7 @@ class Programs {
 
 KernelRound read_kernel_round(const fs::path& file) {
   KernelRound round;
-  const ordered_json all = read_json(file);
+  const ordered_json all = parse_json(file);
   try {
     for (const ordered_json& entry : all.at("benchmarks")) {
       KernelSample sample = sample_named(entry.at("name").get<std::string>());

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lattice/press/press.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/bench/continua.h"
 #include "studies/fits/setup/fit_curves.h"
 #include "studies/jobs/json_file.h"
@@ -61,14 +62,14 @@ void run_pace(lattice::PressSetup setup, int threads, const std::filesystem::pat
   while (timing.runs < runs) run();
   outcome.response.write_csv(folder / "response.csv");
   write_json(
-      {{"real_time_factor", number_or_null(timing.slowest.wall)},
+      {{"real_time_factor", meshes::json_of(timing.slowest.wall)},
        {"real_time_factor_processor",
-        threads == 1 ? number_or_null(timing.slowest.processor) : nlohmann::ordered_json()},
-       {"whole_press_factor", number_or_null(timing.whole)},
+        threads == 1 ? meshes::json_of(timing.slowest.processor) : nlohmann::ordered_json()},
+       {"whole_press_factor", meshes::json_of(timing.whole)},
        {"runs", timing.runs},
-       {"ns_per_mass_step", number_or_null(1e9 * timing.processor /
-                                           (double(outcome.steps.accepted) *
-                                            double(outcome.census.particles) / outcome.sectors))},
+       {"ns_per_mass_step", meshes::json_of(1e9 * timing.processor /
+                                            (double(outcome.steps.accepted) *
+                                             double(outcome.census.particles) / outcome.sectors))},
        {"step", outcome.step.step},
        {"steps", outcome.steps.accepted},
        {"particles", outcome.census.particles},

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "meshes/press/press_response.h"
-#include "studies/jobs/json_file.h"
+#include "meshes/tables/fields_json.h"
 
 namespace fingertip::studies::inline bench {
 
@@ -112,7 +112,7 @@ ordered_json cache_in(const KernelRounds& rounds, const std::string& probe) {
 
 ordered_json probes_of(const KernelRounds& rounds) {
   const auto rate = [&](const std::string& key) {
-    return number_or_null(1e9 / median(costs(rounds, key)));
+    return meshes::json_of(1e9 / median(costs(rounds, key)));
   };
   ordered_json result = {{"multiply_adds_per_second", ordered_json::object()}};
   for (const char* isa : isas)
@@ -145,7 +145,7 @@ ordered_json kernels_of(const KernelRounds& rounds, bool peers) {
                       {"springs", s.springs},
                       {"operations_per_spring",
                        s.operations > 0.0 ? ordered_json(s.operations) : ordered_json()},
-                      {"roofline_fraction", number_or_null(median(fractions))},
+                      {"roofline_fraction", meshes::json_of(median(fractions))},
                       {"rounds", all}});
       if (std::ranges::find(fractions, 1.0) != fractions.end())
         list.back()["remark"] = std::string("roofline: ") + own_roof;
@@ -194,7 +194,7 @@ Ratios ratios_of(const KernelRounds& rounds) {
     std::vector<double> all;
     for (const KernelRound& round : rounds.rounds)
       if (const double value = f(round); std::isfinite(value)) all.push_back(value);
-    result.values[name] = number_or_null(median(all));
+    result.values[name] = meshes::json_of(median(all));
     result.rounds[name] = all;
     if (all.empty()) result.missing[name] = why(name);
   };

@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include "calibration/files/toml_depth.h"
 #include "calibration/material_tests/law_model.h"
 #include "studies/cases/measures.h"
 #include "studies/cases/outputs.h"
 #include "studies/cases/planner.h"
 #include "studies/config/keys/key_table.h"
+#include "studies/config/text/toml_text.h"
 #include "studies/config/text/units.h"
 #include "studies/config/value_reader.h"
 #include "studies/files/places.h"
@@ -26,18 +24,6 @@ namespace fingertip::studies::inline cases {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The file as TOML; empty when it is none (load_config reports).
-toml::table parsed(const fs::path& file) {
-  try {
-    std::ostringstream content;
-    content << std::ifstream(file, std::ios::binary).rdbuf();
-    if (calibration::nests_too_deep(content.str())) return {};
-    return toml::parse(content.str(), file.string());
-  } catch (const toml::parse_error&) {
-    return {};
-  }
-}
 
 /// Keys that follow from what a run is: a press in equilibrium, or slow, measured against the
 /// continuum of its own kinematics, or one in time, beside the transient continuum.
@@ -80,7 +66,7 @@ class CaseReader {
 
   std::vector<Problem> read() {
     // By reference: a copy of a TOML node forgets its line.
-    const toml::table root = parsed(file_);
+    const toml::table root = parsed_file(file_);
     static const toml::table none;
     const auto* found = root["case"].as_table();
     const toml::table& table = found == nullptr ? none : *found;

@@ -201,9 +201,8 @@ RunMeasure suspects(const char* name, std::size_t count, std::vector<std::string
   return {name, {"fit"}, [count, names](const Evidence& run) {
             const calibration::FitFile& fit = run.result.found;
             if (fit.empty()) return meshes::unknown;
-            constexpr double by_no_chance = 1e-3;
             for (std::size_t i = 0; i < std::min(count, fit.lack_of_fit.size()); ++i)
-              if (fit.lack_of_fit[i].probability < by_no_chance &&
+              if (fit.lack_of_fit[i].probability < calibration::by_no_chance &&
                   std::ranges::find(names, fit.lack_of_fit[i].name) != names.end())
                 return 0.0;
             return 1.0;

@@ -65,12 +65,13 @@ class Reader {
 void Reader::take(const Key& key, const toml::node& node, const std::string& place, bool given,
                   const std::filesystem::path& base) {
   const std::string name = key.full_name();
-  Entry& entry = loaded_.entries[name] = {toml_literal(node), place, given};
+  Entry& entry = loaded_.entries[name] = {{}, place, given};
   try {
     Reading reading = read(key, node, base);
     entry.literal = std::move(reading.literal);
     key.assign(loaded_.config, reading.value);
   } catch (const UnitError& error) {
+    entry.literal = toml_literal(node);
     problems_.push_back({place, name, unquoted(entry.literal), error.rule, error.remedy});
   }
 }

@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "studies/config/keys/key_table.h"
+#include "studies/config/text/toml_text.h"
 
 namespace fingertip::studies::inline config {
 
@@ -20,15 +21,6 @@ struct Reading {
 /// and remedy) when the node is not what `key` declares, is not finite or lies outside the key's
 /// range.
 Reading read(const Key& key, const toml::node& node, const std::filesystem::path& base = {});
-
-/// The value of a literal, as "v"; empty for what is no literal.
-toml::table parsed_literal(const std::string& text);
-
-/// The node as TOML text on one line: "40 gf/cm^2" in quotes, [0.0, 0.5, 0.0], true.
-std::string toml_literal(const toml::node& node);
-
-/// The same without quotes around a single string, for messages.
-std::string unquoted(const std::string& literal);
 
 /// The default as entries have it: "1e-6" is "1e-06" there.
 std::string default_literal(const Key& key);

@@ -78,12 +78,8 @@ std::vector<std::string> converted(const std::vector<std::string>& amounts, cons
 
 }  // namespace
 
-std::string_view name(UnitSystem system) {
-  return system == UnitSystem::si ? "si" : "paper";
-}
-
 UnitSystem unit_system(std::string_view word) {
-  return word == name(UnitSystem::paper) ? UnitSystem::paper : UnitSystem::si;
+  return meshes::enumerator<UnitSystem>(word).value_or(UnitSystem::si);
 }
 
 std::string ShownUnit::label(std::string_view what) const {
@@ -92,11 +88,6 @@ std::string ShownUnit::label(std::string_view what) const {
 
 std::string ShownUnit::text(double value) const {
   return fmt::format("{} {}", alike({factor * value}, 4).front(), name);
-}
-
-std::string ShownUnit::decimals(double value) const {
-  std::string text = fmt::format("{:.4f}", factor * value);
-  return text == "-0.0000" ? text.substr(1) : text;
 }
 
 std::array<const ShownUnit*, 8> ShownUnits::all() const {

@@ -7,15 +7,20 @@
 #include <string>
 #include <string_view>
 
+#include "meshes/base/names.h"
+
 namespace fingertip::studies::inline files {
 
 enum class UnitSystem {
   si,     ///< mN, mm, kPa
   paper,  ///< gf, cm, gf/cm², as in Reznik & Laugier (1996)
 };
-inline constexpr std::array unit_systems{UnitSystem::si, UnitSystem::paper};
-/// The word for it in run.units.
-std::string_view name(UnitSystem system);
+using meshes::name, meshes::values;
+/// The words for them in run.units.
+constexpr auto names_of(UnitSystem) {
+  using enum UnitSystem;
+  return meshes::names<UnitSystem>({{si, "si"}, {paper, "paper"}});
+}
 /// The system of that name; SI for any other word.
 UnitSystem unit_system(std::string_view name);
 
@@ -32,8 +37,6 @@ struct ShownUnit {
   std::string label(std::string_view what) const;
   /// "3 mm" of a value in SI, four digits.
   std::string text(double value) const;
-  /// "3.0000" of a value in SI, four decimals, without a sign where these are all zero.
-  std::string decimals(double value) const;
 };
 
 struct ShownUnits {

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "studies/files/json_entry.h"
 #include "studies/jobs/digest.h"
 #include "studies/jobs/file_lock.h"
 #include "studies/jobs/json_file.h"
@@ -22,7 +23,7 @@ std::string noted(const Job& job, const fs::path& note, const char* entry) {
   if (!fs::exists(note)) return {};
   try {
     const auto content =
-        note.filename() == marker_name ? read_marker(note.parent_path()) : read_json(note);
+        note.filename() == marker_name ? read_marker(note.parent_path()) : parse_json(note);
     return content.value("key", "") == job.key() ? content.value(entry, "") : "";
   } catch (const std::exception&) {
     return {};  // damaged: the job has to run again

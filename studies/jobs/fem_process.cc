@@ -16,6 +16,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/press/no_equilibrium.h"
 #include "meshes/tables/file_fields.h"
+#include "studies/files/json_entry.h"
 #include "studies/jobs/fem_launch.h"
 #include "studies/jobs/json_file.h"
 
@@ -202,7 +203,7 @@ std::string lost_message(int signal, const std::filesystem::path& folder,
     const std::string text = words.empty() ? "the continuum did not converge" : words;
     const auto file = folder / "summary.json";
     const double reached =
-        std::filesystem::exists(file) ? number_of(read_json(file)["reached"]) : meshes::unknown;
+        std::filesystem::exists(file) ? number_of(parse_json(file)["reached"]) : meshes::unknown;
     if (!std::isnan(reached)) throw meshes::NoEquilibrium(text, reached);
     throw meshes::NotConverged(text);
   }

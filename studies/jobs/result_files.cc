@@ -4,6 +4,7 @@
 
 #include "meshes/base/errors.h"
 #include "meshes/base/text_file.h"
+#include "studies/files/json_entry.h"
 #include "studies/jobs/digest.h"
 #include "studies/jobs/json_file.h"
 
@@ -63,7 +64,7 @@ bool is_whole_result(const fs::path& folder) {
 
 nlohmann::ordered_json read_marker(const fs::path& folder) {
   const fs::path file = folder / marker_name;
-  const nlohmann::ordered_json marker = read_json(file);
+  const nlohmann::ordered_json marker = parse_json(file);
   nlohmann::ordered_json content = marker;
   if (content.is_object()) content.erase(seal);
   if (!marker.is_object() || marker.value(seal, nlohmann::ordered_json()) != sha256(content.dump()))

@@ -164,7 +164,7 @@ namespace {
 /// The table of units, `first` first: {"system": "si", "length": [1000, "mm"], ...}.
 Json units_json(UnitSystem first) {
   Json all = Json::array();
-  for (const UnitSystem system : unit_systems) {
+  for (const UnitSystem system : values(UnitSystem())) {
     Json entry = {{"system", std::string(name(system))}};
     for (const ShownUnit* unit : units_of(system).all())
       entry[std::string(unit->quantity)] = {unit->factor, std::string(unit->name)};

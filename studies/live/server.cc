@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <pthread.h>
 
-#include <array>
 #include <future>
 
 #include "meshes/base/errors.h"

@@ -6,6 +6,7 @@
 #include "lattice/press/setup_fields.h"
 #include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
+#include "studies/files/json_entry.h"
 #include "studies/jobs/json_file.h"
 
 namespace fingertip::studies::inline presses {
@@ -98,7 +99,7 @@ PressSummary press_summary_head(const lattice::PressSetup& setup, const std::str
 
 void set_press_status(const fs::path& folder, const std::string& status) {
   if (!fs::exists(folder / "summary.json")) return;
-  ordered_json summary = read_json(folder / "summary.json");
+  ordered_json summary = parse_json(folder / "summary.json");
   summary["status"] = status;
   write_json(summary, folder / "summary.json");
 }

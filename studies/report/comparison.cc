@@ -7,8 +7,6 @@
 #include <ostream>
 
 #include "meshes/tables/table_rows.h"
-#include "studies/report/chapters/continuum/continuum_chapters.h"
-#include "studies/report/chapters/models/model_chapters.h"
 #include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/terminal.h"
 #include "studies/report/page/words.h"
@@ -21,8 +19,6 @@ namespace fingertip::studies::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* above = "outside top center horizontal";
 
 using Cells = std::vector<std::string>;
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/report/chapters/continuum/continuum_chapters.h"
 #include "studies/report/chapters/fit/calibration_chapters.h"
 #include "studies/report/chapters/fit/materials_chapter.h"
 #include "studies/report/chapters/models/model_chapters.h"

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include <toml++/toml.h>
 
-#include "calibration/files/toml_depth.h"
 #include "studies/config/keys/key_table.h"
+#include "studies/config/text/toml_text.h"
 #include "studies/config/text/units.h"
 #include "studies/config/value_reader.h"
 #include "studies/jobs/digest.h"
@@ -44,15 +42,7 @@ class SweepReader {
 
   void read_file(const std::filesystem::path& file) {
     file_ = file;
-    toml::table root;
-    try {
-      std::ostringstream content;
-      content << std::ifstream(file, std::ios::binary).rdbuf();
-      if (calibration::nests_too_deep(content.str())) return;  // told by load_config
-      root = toml::parse(content.str(), file.string());
-    } catch (const toml::parse_error&) {
-      return;  // told by load_config
-    }
+    const toml::table root = parsed_file(file);
     if (const toml::table* table = root["sweep"].as_table()) read_table(*table, "");
   }
 

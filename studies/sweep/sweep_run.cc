@@ -5,6 +5,7 @@
 
 #include "lattice/control/controller.h"
 #include "meshes/base/errors.h"
+#include "studies/files/json_entry.h"
 #include "studies/files/places.h"
 #include "studies/jobs/cache.h"
 #include "studies/jobs/file_lock.h"
@@ -103,7 +104,7 @@ void claim_folder(const Sweep& sweep, const fs::path& folder) {
   };
   const auto content = content_of(sweep);
   if (fs::exists(folder / sweep_file)) {
-    if (read_json(folder / sweep_file) != content) refuse("the folder belongs to another sweep");
+    if (parse_json(folder / sweep_file) != content) refuse("the folder belongs to another sweep");
     return;
   }
   const auto foreign = [](const fs::directory_entry& item) {

@@ -36,7 +36,7 @@ class RungeKutta::Solver {
   Solver& operator=(const Solver&) = delete;
 
   void begin(double duration);
-  /// Returns the length of the step; ends_span tells whether the end of the span cut it.
+  /// Returns the length of the step; ended_span() tells whether the end of the span cut it.
   double step(const Drive& drive);
   bool ended_span() const { return ended_span_; }
   long rejected() const { return rejected_; }

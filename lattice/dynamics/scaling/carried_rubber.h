@@ -7,10 +7,10 @@
 
 #include "lattice/dynamics/scaling/multigrid.h"
 #include "lattice/dynamics/scaling/restraint.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline dynamics::inline scaling {
 

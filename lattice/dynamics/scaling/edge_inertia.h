@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "lattice/dynamics/scaling/edge_sweeps.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline dynamics::inline scaling {
 
@@ -27,7 +27,7 @@ using EdgeInertia = std::array<std::array<std::vector<Single>, 3>, 3>;
 /// along the axes meet the bulk, so that what shears is not made as heavy as what swells. The mean
 /// gradient of a cell is one of its edges' gradients, weighted with the shares w_e of the rubber
 /// that they own, and (Σ w_e g_e)² <= Σ c_e g_e² if Σ w_e²/c_e <= 1; b_e are for what the edges
-/// differ by (cells/cell_edges.h), but for the small part of their damping that hangs on how much
+/// differ by (model/cell_edges.h), but for the small part of their damping that hangs on how much
 /// they differ already.
 ///
 /// Law `network`, T = F⁻ᵀ, r_c and k_d the sums of |T| along row c and column d, s that of all:

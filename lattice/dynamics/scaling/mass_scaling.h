@@ -12,9 +12,9 @@
 #include "lattice/dynamics/scaling/edge_inertia.h"
 #include "lattice/dynamics/scaling/multigrid.h"
 #include "lattice/dynamics/scaling/restraint.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline dynamics::inline scaling {
 

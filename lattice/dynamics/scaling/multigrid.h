@@ -8,8 +8,8 @@
 #include "lattice/dynamics/scaling/edge_inertia.h"
 #include "lattice/dynamics/scaling/grid_hierarchy.h"
 #include "lattice/dynamics/scaling/sweeps.h"
-#include "lattice/kernels/parallel.h"
 #include "lattice/model/state.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline dynamics::inline scaling {
 

@@ -15,7 +15,6 @@
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
 #include "studies/jobs/interrupt.h"
-#include "studies/jobs/json_file.h"
 #include "studies/presses/press_job.h"
 #include "studies/presses/press_setup.h"
 #include "studies/report/chapters/press/press_chapters.h"

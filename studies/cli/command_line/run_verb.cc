@@ -18,17 +18,26 @@ namespace fingertip::studies::inline cli::inline command_line {
 namespace {
 
 /// What to do with a run that ended early. What did not converge would not do so again.
-void tell_kept(const std::string& folder, const std::string& status) {
+std::string kept_in(const std::string& folder, const std::string& status) {
   if (status == "not converged")
-    fmt::print(
-        stderr,
-        "fingertip: {} is kept; run it with other settings, the same ones end the same way\n",
+    return fmt::format(
+        "\nfingertip: {} is kept; run it with other settings, the same ones end the same way",
         folder);
-  else
-    fmt::print(stderr,
-               "fingertip: {} is kept; the same command with --out {} --resume auto computes the "
-               "rest\n",
-               folder, folder);
+  return fmt::format(
+      "\nfingertip: {} is kept; the same command with --out {} --resume auto computes the rest",
+      folder, folder);
+}
+
+/// The error as one of the kinds that it is, the special ones first, or else as a runtime_error,
+/// with more to say.
+template <typename... Kinds>
+[[noreturn]] void throw_with(const std::exception& error, const std::string& more) {
+  const std::string words = error.what() + more;
+  const auto throw_if = [&]<typename Kind>(const Kind* kind) {
+    if (kind != nullptr) throw Kind(words);
+  };
+  (throw_if(dynamic_cast<const Kinds*>(&error)), ...);
+  throw std::runtime_error(words);
 }
 
 /// A calibration may find bad input late, when continua and fits are there already.
@@ -83,11 +92,15 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
       } catch (const meshes::CannotWrite&) {
         // The reason why the run ended is what counts.
       }
-      if (exit_code != 2) tell_kept(folder.path().string(), status);
     }
     if (const auto* invalid = dynamic_cast<const meshes::InvalidInput*>(&error))
       throw loaded.locate(invalid->violations());
-    throw;
+    if (exit_code == 2) throw;
+    const std::string kept = kept_in(folder.path().string(), status);
+    if (status == std::string_view("could not write"))
+      throw meshes::CannotWrite(error.what() + kept);
+    throw_with<ProcessLost, lattice::ControllerFailed, meshes::NotConverged, meshes::Interrupted>(
+        error, kept);
   }
 }
 

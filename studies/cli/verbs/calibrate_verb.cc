@@ -3,6 +3,7 @@
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/cli/verbs/fit_screen.h"
 #include "studies/cli/verbs/verbs.h"
+#include "studies/files/json_entry.h"
 #include "studies/files/shown_units.h"
 #include "studies/fits/runs/calibration_stages.h"
 #include "studies/jobs/json_file.h"
@@ -91,7 +92,7 @@ int run_calibrate(const CommandLine& line) {
     for (const std::string& note : stages.notes()) session.folder().log(note);
     const bool computed = run_stages(stages, session);
     const std::filesystem::path& folder = session.folder().path();
-    const ordered_json content = read_json(folder / "calibration.json");
+    const ordered_json content = parse_json(folder / "calibration.json");
     const bool written = std::filesystem::exists(folder / "material.toml");
     if (line.quiet) return verdict_of(content, written);
     fmt::print("{}\n\n",

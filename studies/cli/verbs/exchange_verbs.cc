@@ -7,7 +7,6 @@
 #include "studies/exchange/contact_export.h"
 #include "studies/exchange/fmu_files.h"
 #include "studies/exchange/lammps/lammps_files.h"
-#include "studies/jobs/interrupt.h"
 #include "studies/jobs/json_file.h"
 #include "studies/presses/press_setup.h"
 

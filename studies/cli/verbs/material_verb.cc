@@ -7,10 +7,10 @@
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/cli/verbs/fit_screen.h"
 #include "studies/cli/verbs/verbs.h"
+#include "studies/files/json_entry.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
 #include "studies/fits/runs/law_job.h"
-#include "studies/jobs/json_file.h"
 #include "studies/report/chapters/fit/law_chapter.h"
 #include "studies/report/page/terminal.h"
 
@@ -20,9 +20,8 @@ namespace {
 
 /// The laws, and of the recommended one how it meets the tests and what contradicts it, as far as
 /// that is not why it was not accepted.
-void print_laws(const std::filesystem::path& folder, const calibration::LawsFile& file) {
-  FolderReader reader;
-  const report::LawResult result = report::read_laws(folder, reader);
+void print_laws(const calibration::LawsFile& file) {
+  const report::LawResult result{file, {}};
   fmt::print(
       "{}", report::tables_text(report::law_chapter(result), {"ranking", "coefficients", "tests"}));
   for (const calibration::LawEntry& law : file.laws)
@@ -43,8 +42,7 @@ int run_material(const CommandLine& line, const LoadedConfig& loaded) {
     for (const std::string& note : input.tests.notes) session.folder().log(note);
     const JobResult result = session.run({"", law_job(input), false});
     const std::filesystem::path& folder = session.folder().path();
-    const auto file = struct_of<calibration::LawsFile>(
-        JsonEntry(read_json(folder / "laws.json"), folder / "laws.json"));
+    const auto file = struct_of<calibration::LawsFile>(read_entry(folder / "laws.json"));
     const std::filesystem::path card = folder / "material.toml",
                                 taken = folder / "cards" / (file.recommended + ".toml");
     if (!file.failed.empty()) std::filesystem::remove(card);  // of an earlier attempt
@@ -53,7 +51,7 @@ int run_material(const CommandLine& line, const LoadedConfig& loaded) {
     const bool written = std::filesystem::exists(card);
     if (!line.quiet) {
       fmt::print("{}\n\n", in_shown_units(file.statement, Spelling::terminal));
-      print_laws(folder, file);
+      print_laws(file);
       if (result.reused) fmt::print("(result from an earlier run with the same input)\n");
       if (written)
         fmt::print("card: {} (use: --set rubber.card=PATH --set lattice.model=network)\n",

@@ -5,12 +5,12 @@
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/cli/verbs/fit_screen.h"
 #include "studies/cli/verbs/verbs.h"
+#include "studies/files/json_entry.h"
 #include "studies/files/plan_file.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
 #include "studies/fits/runs/plan_job.h"
 #include "studies/fits/setup/configured_fit.h"
-#include "studies/jobs/json_file.h"
 #include "studies/report/chapters/fit/calibration_chapters.h"
 #include "studies/report/page/terminal.h"
 
@@ -37,8 +37,9 @@ void print_plan(const PlanFile& plan) {
     const auto shown = [&](double value) {
       return report::number(as_shown(value, parameter.unit).first);
     };
-    table.rows.push_back({parameter.name, shown(parameter.value), shown(parameter.lower),
-                          shown(parameter.upper), as_shown(0.0, parameter.unit).second});
+    const auto [value, unit] = as_shown(parameter.value, parameter.unit);
+    table.rows.push_back({parameter.name, report::number(value), shown(parameter.lower),
+                          shown(parameter.upper), unit});
     units[parameter.name] = parameter.unit;
   }
   fmt::print("\n{}", report::table_text(table));
@@ -60,7 +61,7 @@ int run_plan(const CommandLine& line, const LoadedConfig& loaded) {
         session.run({"", plan_job(setup.input, {settings.noise, settings.noise_force}), false});
     const std::filesystem::path file = session.folder().path() / plan_name;
     if (line.quiet) return 0;
-    print_plan(struct_of<PlanFile>(JsonEntry(read_json(file), file)));
+    print_plan(struct_of<PlanFile>(read_entry(file)));
     if (result.reused) fmt::print("(result from an earlier run with the same input)\n");
     fmt::print("run folder: {}\n", session.folder().path().string());
     return 0;

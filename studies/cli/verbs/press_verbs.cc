@@ -10,11 +10,11 @@
 #include "studies/cli/command_line/real_time.h"
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/cli/verbs/verbs.h"
+#include "studies/files/json_entry.h"
 #include "studies/files/mode_table.h"
 #include "studies/files/press_summary.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
-#include "studies/jobs/json_file.h"
 #include "studies/jobs/result_files.h"
 #include "studies/presses/modes_job.h"
 #include "studies/presses/press_job.h"
@@ -172,7 +172,7 @@ void print_sources(const LoadedConfig& loaded) {
 class ToldSummary {
  public:
   explicit ToldSummary(std::filesystem::path folder)
-      : folder_(std::move(folder)), content_(read_json(folder_ / summary_name)) {}
+      : folder_(std::move(folder)), content_(parse_json(folder_ / summary_name)) {}
 
   PressSummary press() const {
     return struct_of<PressSummary>(JsonEntry(content_, folder_ / summary_name));

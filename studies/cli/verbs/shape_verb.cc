@@ -88,7 +88,7 @@ report::Figure section(const auto& shape, const std::string& name) {
     trace(shape, look.surface, outline);
     if (!outline.x.empty()) panel.series.push_back(std::move(outline));
   }
-  return {name, 760, 430, 1, {panel}};
+  return {.name = name, .panels = {panel}};
 }
 
 /// What a lattice of it takes.

@@ -1,7 +1,6 @@
 /// Complete, resolved settings for every verb: what the key table's values add up to.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -4,37 +4,35 @@
 
 namespace fingertip::studies::inline config::inline keys {
 
-namespace {
-
-/// Of every kind, in the order of the enumeration.
-constexpr struct {
-  const char *name, *description;
-} kinds[] = {{"quantity", "quantity"},
-             {"quantities", "list of quantities"},
-             {"number", "number"},
-             {"terms", "list of pairs of a quantity and a number"},
-             {"stages", "list of pairs [indentation, speed] or [hold, duration]"},
-             {"numbers", "list of 3 numbers"},
-             {"number_pair", "list of 2 numbers"},
-             {"integer", "integer"},
-             {"boolean", "true or false"},
-             {"choice", "word"},
-             {"source", "word or path"},
-             {"text", "text"},
-             {"file", "path"},
-             {"texts", "list of texts"},
-             {"files", "list of paths"},
-             {"fields", "table"}};
-
-}  // namespace
-
-const char* name(Kind kind) {
-  return kinds[std::size_t(kind)].name;
+std::string Key::description() const {
+  switch (kind) {
+    case Kind::quantity: return "quantity";
+    case Kind::quantities: return "list of quantities";
+    case Kind::number: return "number";
+    case Kind::terms:
+      return number_first ? "list of pairs of a number and a quantity"
+                          : "list of pairs of a quantity and a number";
+    case Kind::stages: return "list of pairs [indentation, speed] or [hold, duration]";
+    case Kind::numbers: return "list of 3 numbers";
+    case Kind::number_pair: return "list of 2 numbers";
+    case Kind::integer: return "integer";
+    case Kind::boolean: return "true or false";
+    case Kind::choice: return "word";
+    case Kind::source: return "word or path";
+    case Kind::text: return "text";
+    case Kind::file: return "path";
+    case Kind::texts: return "list of texts";
+    case Kind::files: return "list of paths";
+    case Kind::fields: return "table";
+  }
+  return "";
 }
 
-std::string Key::description() const {
-  if (kind == Kind::terms && number_first) return "list of pairs of a number and a quantity";
-  return kinds[std::size_t(kind)].description;
+bool Key::takes_list() const {
+  using enum Kind;
+  for (const Kind list : {quantities, terms, stages, numbers, number_pair, texts, files})
+    if (kind == list) return true;
+  return false;
 }
 
 std::string Key::example() const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "meshes/base/names.h"
 #include "studies/config/keys/config.h"
 
 namespace fingertip::studies::inline config::inline keys {
@@ -29,7 +30,26 @@ enum class Kind {
   fields,       ///< table of Key::fields
 };
 
-const char* name(Kind kind);
+using meshes::name, meshes::values;
+constexpr auto names_of(Kind) {
+  using enum Kind;
+  return meshes::names<Kind>({{quantity, "quantity"},
+                              {quantities, "quantities"},
+                              {number, "number"},
+                              {terms, "terms"},
+                              {stages, "stages"},
+                              {numbers, "numbers"},
+                              {number_pair, "number_pair"},
+                              {integer, "integer"},
+                              {boolean, "boolean"},
+                              {choice, "choice"},
+                              {source, "source"},
+                              {text, "text"},
+                              {file, "file"},
+                              {texts, "texts"},
+                              {files, "files"},
+                              {fields, "fields"}});
+}
 
 /// A value read from text, in SI.
 struct Value {
@@ -84,7 +104,7 @@ struct Key {
   std::string full_name() const { return section + "." + name; }
   /// Of the kind: "list of quantities".
   std::string description() const;
-  bool takes_list() const { return description().starts_with("list"); }
+  bool takes_list() const;
   /// A quantity text to quote in advice: the default, or "1 <unit>".
   std::string example() const;
   /// The allowed values in words: range, choices or nothing.

@@ -96,8 +96,7 @@ void store(const Value& value, T& member) {
   } else if constexpr (std::is_enum_v<T>) {
     // The libraries give the names, so that a choice cannot mean one thing here, another in a job's
     // file.
-    for (const T choice : values(T()))
-      if (name(choice) == value.word) member = choice;
+    member = meshes::enumerator<T>(value.word).value_or(member);
   } else if constexpr (std::is_arithmetic_v<T>) {
     member = T(value.number);
   } else if constexpr (std::is_same_v<T, meshes::Vector3>) {

@@ -8,11 +8,12 @@ bool by_continuum(const FitInput& input) {
   return !input.curves.empty() && input.curves.front().kind == CurveKind::continuum;
 }
 
-bool has_presses(const FitInput& input) {
+bool is_press(CurveKind kind) {
   using enum CurveKind;
-  const auto is_press = [](CurveKind kind) {
-    return kind == press || kind == continuum || kind == ramp || kind == moving_press;
-  };
+  return kind == press || kind == continuum || kind == ramp || kind == moving_press;
+}
+
+bool has_presses(const FitInput& input) {
   return !input.curves.empty() && is_press(input.curves.front().kind);
 }
 

@@ -98,6 +98,8 @@ struct FitInput {
 /// Whether the continuum answers for the curves.
 bool by_continuum(const FitInput& input);
 
+/// Whether a curve of this kind is forces of a press.
+bool is_press(CurveKind kind);
 /// Whether the curves are presses, and whether they go over the travel of a machine.
 bool has_presses(const FitInput& input);
 bool has_travels(const FitInput& input);

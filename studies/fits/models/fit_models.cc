@@ -78,7 +78,7 @@ class MeasuredPress final : public ForwardModel {
 std::unique_ptr<ForwardModel> ramp_model(lattice::PressSetup setup, const std::vector<double>& time,
                                          const std::function<bool()>& go_on) {
   const double depth = setup.protocol.depth;
-  setup.protocol.samples = even_depths(depth, ramp_samples);
+  setup.protocol.samples = meshes::even_depths(depth, ramp_samples);
   const auto press = lattice::run_static_press(
       setup, [&](const lattice::StaticOutcome&, double) { return go_on(); });
   return std::make_unique<calibration::RampModel>(

@@ -218,7 +218,7 @@ FitInput made_anew(const FitInput& input, double depth) {
   curve.press = first.press;
   curve.travel = first.travel;
   curve.is_travel = first.travel.has_value();
-  curve.x = even_depths(depth, first.x.size());
+  curve.x = meshes::even_depths(depth, first.x.size());
   if (first.time.size() == curve.x.size())
     for (const double time : first.time) curve.time.push_back(time - first.time.front());
   again.options.free.assign(

@@ -83,11 +83,12 @@ std::vector<calibration::Repeats> repeats_in(const FitInput& input,
   std::vector<calibration::FitQuantity> touch;
   for (const FitCurve& curve : input.curves)
     touch.push_back(curve.travel ? curve.travel->rig.touch_offset : calibration::FitQuantity());
+  const std::vector<Curve> all = curves_of(input);
+  const auto zero = zeros(input, fit.estimates);
   std::vector<calibration::Repeats> found;
   for (const auto& curves : alike(input))
     if (curves.size() > 1)
-      found.push_back(calibration::repeats_of(curves, curves_of(input), fit, nuisance, touch,
-                                              zeros(input, fit.estimates)));
+      found.push_back(calibration::repeats_of(curves, all, fit, nuisance, touch, zero));
   return found;
 }
 
@@ -103,8 +104,7 @@ CurveFit fit_again(const FitInput& input, const std::vector<calibration::Forward
                    const MatrixXd& covariance) {
   calibration::CurveFitOptions options = input.options;
   options.model_covariance = covariance;
-  options.other_starts.clear();
-  options.reserve_starts.clear();
+  options.start_once();
   for (std::size_t i = 0; i < options.free.size(); ++i)
     options.free[i].start = before.estimates(Index(i));
   CurveFit fit = calibration::fit_curves(curves, models, options);

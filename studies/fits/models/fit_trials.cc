@@ -142,8 +142,7 @@ Trials::Trials(const FitInput& input, const calibration::CurveFit& fit,
     scale.prior = calibration::Prior{first.prior->mean / fit.estimates(0),
                                      first.prior->deviation / fit.estimates(0)};
   options_.free.assign(std::size_t(scales_), scale);
-  options_.other_starts.clear();
-  options_.reserve_starts.clear();
+  options_.start_once();
   options_.progress = {};
   options_.max_evaluations = most_trials;
   options_.value_deviation = fit.residual_deviation;  // the same for all that are compared

@@ -27,9 +27,6 @@ constexpr const char* relaxation_name = "relaxation";
 /// Causes of smooth curves resemble each other: such a share of the best one's decrease is as good.
 constexpr double nearly_all = 0.9;
 
-/// A misfit that chance makes less often than this is one.
-constexpr double by_no_chance = 1e-3;
-
 /// The forces that the fit has for a curve.
 VectorXd fitted_forces(const FitInput& input, const calibration::CurveFit& fit, std::size_t i) {
   return values_of(input.curves[i]) - fit.residuals[i];
@@ -117,7 +114,8 @@ std::vector<std::string> best_pair(Trials& trials, const std::vector<Freed>& hel
   double least = trials.before();
   for (const ScoreTest& each : found) least = std::min(least, trials.before() - each.decrease);
   if (trials.freedom() < 3 ||
-      calibration::chi_square_above(std::max(0.0, least), trials.freedom() - 1) > by_no_chance)
+      calibration::chi_square_above(std::max(0.0, least), trials.freedom() - 1) >
+          calibration::by_no_chance)
     return {};
   std::vector<std::string> pair;
   for (std::size_t a = 0; a < rig_members.size(); ++a)

@@ -26,13 +26,6 @@ struct Travel {
                                    const Eigen::VectorXd& parameters) const;
 };
 
-/// 1/n, 2/n ... 1 of a depth.
-inline std::vector<double> even_depths(double depth, std::size_t count) {
-  std::vector<double> depths;
-  for (std::size_t i = 1; i <= count; ++i) depths.push_back(depth * double(i) / double(count));
-  return depths;
-}
-
 /// Nothing of it free, at the settings' values.
 calibration::Rig rig_of(const RigSettings& settings);
 

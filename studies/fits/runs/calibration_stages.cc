@@ -7,6 +7,7 @@
 
 #include "calibration/moduli/result_io.h"
 #include "meshes/press/press_response.h"
+#include "studies/files/json_entry.h"
 #include "studies/files/read_fields.h"
 #include "studies/fits/models/fit_relaxation.h"
 #include "studies/fits/runs/fit_corrections.h"
@@ -52,7 +53,7 @@ const meshes::PressSample& sample_near(const PressResponse& response, double dep
 
 FitFile read_fit(const fs::path& folder) {
   const fs::path file = folder / "calibration.json";
-  return struct_of<FitFile>(JsonEntry(read_json(file), file));
+  return struct_of<FitFile>(read_entry(file));
 }
 
 void check_moduli(const LoadedConfig& loaded) {
@@ -251,14 +252,13 @@ bool CalibrationStages::usable(const fs::path& run) const {
 }
 
 void CalibrationStages::add_biases(FitFile& fit, const fs::path& run) const {
-  std::vector<double> error;
+  std::vector<Eigen::VectorXd> errors;
   for (std::size_t i = 0; i < setup_.input.curves.size(); ++i) {
     const fs::path folder = run / place("bias_" + std::to_string(i + 1));
-    const Eigen::VectorXd own = lattice_error(setup_.input.curves[i], fit.residuals[i],
-                                              PressResponse::read_csv(folder / "response.csv"));
-    error.insert(error.end(), own.begin(), own.end());
+    errors.push_back(lattice_error(setup_.input.curves[i], fit.residuals[i],
+                                   PressResponse::read_csv(folder / "response.csv")));
   }
-  add_bias(Eigen::VectorXd::Map(error.data(), Eigen::Index(error.size())), fit);
+  add_bias(calibration::stacked(errors), fit);
 }
 
 /// The fit to moduli knows neither the finger nor what of the rubber is only a default.
@@ -290,7 +290,7 @@ void CalibrationStages::finish(const fs::path& run) const {
     if (other_contact_ && fs::exists(other / "calibration.json"))
       add_other_contact(read_fit(other), contact_name(setup_), contact_name(*other_contact_), fit);
     fit.statement += contact_note_;
-    ordered_json summary = read_json(run / place(fit_name_) / "summary.json");
+    ordered_json summary = parse_json(run / place(fit_name_) / "summary.json");
     summary["statement"] = fit.statement;
     write_json(summary, target / "summary.json");
     meshes::write_json_file(fit, target / "calibration.json");

@@ -55,7 +55,7 @@ void add_profile(const FitInput& input, const std::vector<ForwardModel*>& models
   record.profile_second = record.fit.parameters[second];
 }
 
-/// Of another rubber than the setup's: its constants in closed form, or fitted to its moduli.
+/// Of another rubber than the setup's: its constants in closed form.
 void put_rubber(const meshes::Rubber& rubber, lattice::PressSetup& setup) {
   setup.rubber = rubber;
   calibration::ModuliFitOptions options;

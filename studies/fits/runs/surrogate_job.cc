@@ -66,7 +66,7 @@ void run_surrogate(const lattice::PressSetup& setup, const ForceUncertainty& unc
 
 Job surrogate_job(const lattice::PressSetup& press, const ForceUncertainty& uncertainty) {
   lattice::PressSetup setup = press;
-  setup.protocol.samples = even_depths(press.protocol.depth, sample_count);
+  setup.protocol.samples = meshes::even_depths(press.protocol.depth, sample_count);
   std::vector<std::string> names;
   for (const MaterialParameter parameter : uncertainty.parameters)
     names.emplace_back(calibration::name(parameter));

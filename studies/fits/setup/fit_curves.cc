@@ -148,7 +148,7 @@ void add_continuum_curves(FitSetup& fit, const LoadedConfig& loaded) {
     const LoadedConfig own =
         under(loaded, settings_in(condition),
               {moving ? "press.mode=quasi-static" : "press.mode=static",
-               samples_setting(even_depths(settings.depth, std::size_t(settings.points)))});
+               samples_setting(meshes::even_depths(settings.depth, std::size_t(settings.points)))});
     Curve curve;
     curve.x = own.config.press.protocol.samples;
     if (moving) {

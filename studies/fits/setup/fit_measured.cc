@@ -256,8 +256,7 @@ void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
                         NotesOnFiles& notes) {
   const CalibrationSettings& settings = loaded.config.calibration;
   const CurveKind kind = kind_of(file, settings);
-  const bool press =
-      kind == CurveKind::press || kind == CurveKind::continuum || kind == CurveKind::ramp;
+  const bool press = is_press(kind);
   if (!fit.input.curves.empty() && press != has_presses(fit.input))
     throw refused(loaded, "calibration.data", source.path.string(),
                   "forces of presses and other tests do not go into one fit",

@@ -74,7 +74,7 @@ void add_planned_curves(FitSetup& fit, const LoadedConfig& loaded) {
     if (!settings.data.empty()) curve.name = settings.data[i].stem().string();
     curve.x = asked.entries.at("press.samples").given
                   ? protocol.samples
-                  : even_depths(protocol.depth, std::size_t(settings.points));
+                  : meshes::even_depths(protocol.depth, std::size_t(settings.points));
     curve.is_travel = asked.entries.at("calibration.rig").given;
     curve.time = times_of(curve.x, protocol.speed);
     any_travel = any_travel || curve.is_travel;
@@ -133,7 +133,7 @@ std::shared_ptr<const FitInput> input_of(const FirstPress& first, const LoadedCo
   const FitCurve& like = input.curves.front();
   Curve curve;
   curve.name = name;
-  curve.x = even_depths(depth, like.x.size());
+  curve.x = meshes::even_depths(depth, like.x.size());
   curve.is_travel = like.travel.has_value();
   curve.time = times_of(curve.x, own.config.press.protocol.speed);
   FitCurve& added = add_press(further, own, like.kind, curve);

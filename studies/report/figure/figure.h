@@ -145,6 +145,9 @@ struct Panel {
   std::optional<Surface> surface = std::nullopt;
 };
 
+/// Panel::key of a legend above the axes.
+inline constexpr const char* above = "outside top center horizontal";
+
 /// A panel over indentation.
 Panel over_indentation(const std::string& y_label, const std::string& key = "top left");
 

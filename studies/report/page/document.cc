@@ -150,7 +150,7 @@ std::vector<Cell> heads(std::initializer_list<std::string> titles) {
 void Table::drop_unknown(std::size_t first) {
   for (std::size_t column = header.size(); column-- > first;) {
     const auto is_unknown = [&](const std::vector<Cell>& row) {
-      return column >= row.size() || row[column].text.empty() || row[column].text == "–";
+      return column >= row.size() || row[column].is_unknown();
     };
     if (std::ranges::all_of(rows, is_unknown)) drop_column(column);
   }

@@ -34,6 +34,9 @@ struct Cell {
   std::string note;  ///< second, smaller line: the SI value or the deviation
   Grade grade = Grade::none;
   bool words = false;  ///< prose: left-aligned and wrapped
+
+  /// "–" or nothing at all.
+  bool is_unknown() const { return text.empty() || text == "–"; }
 };
 
 /// Left-aligned and wrapped.
@@ -53,7 +56,7 @@ struct Table {
   std::vector<std::vector<Cell>> rows = {};
   std::string id = {}, caption = {};  ///< those of the template that places it
 
-  /// Leaves out the columns from the `first` on in which nothing is known, "–" or nothing at all.
+  /// Leaves out the columns from the `first` on in which nothing is known.
   void drop_unknown(std::size_t first);
   void drop_column(std::size_t column);
 };

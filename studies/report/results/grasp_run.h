@@ -6,7 +6,6 @@
 
 #include "lattice/grasp/grasp_table.h"
 #include "studies/files/grasp_summary.h"
-#include "studies/report/page/document.h"
 #include "studies/report/results/run_data.h"
 
 namespace fingertip::studies::report::inline results {

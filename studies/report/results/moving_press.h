@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/report/page/document.h"
+#include "studies/report/figure/figure.h"
 #include "studies/report/results/run_data.h"
 
 namespace fingertip::studies::report::inline results {

@@ -103,6 +103,23 @@ Table test_table(const LawEntry& law) {
   return table;
 }
 
+/// The law's coefficients with their intervals, in the units shown.
+Table coefficient_table(const LawEntry& law) {
+  Table table{heads({"Coefficient", "Estimate", "95 % from", "to", "Unit"})};
+  for (const auto& parameter : law.parameters) {
+    const ShownUnit* shown = shown_units().of(parameter.unit);
+    const auto value = [&](double si) { return number(shown == nullptr ? si : (*shown)(si)); };
+    table.rows.push_back({{parameter.name, parameter.at_bound ? "at its bound" : ""},
+                          value(parameter.estimate),
+                          value(parameter.lower),
+                          value(parameter.upper),
+                          shown != nullptr        ? unit_name(*shown)
+                          : parameter.unit == "1" ? "–"
+                                                  : parameter.unit});
+  }
+  return table;
+}
+
 }  // namespace
 
 const LawEntry& LawResult::taken() const {
@@ -120,22 +137,6 @@ std::vector<LawDataRow> law_rows(const LawResult& result, const std::string& law
   for (std::size_t i = 0; i < all.size(); ++i)
     if (i % step == 0 || i + 1 == all.size()) some.push_back(all[i]);
   return some;
-}
-
-Table coefficient_table(const LawEntry& law) {
-  Table table{heads({"Coefficient", "Estimate", "95 % from", "to", "Unit"})};
-  for (const auto& parameter : law.parameters) {
-    const ShownUnit* shown = shown_units().of(parameter.unit);
-    const auto value = [&](double si) { return number(shown == nullptr ? si : (*shown)(si)); };
-    table.rows.push_back({{parameter.name, parameter.at_bound ? "at its bound" : ""},
-                          value(parameter.estimate),
-                          value(parameter.lower),
-                          value(parameter.upper),
-                          shown != nullptr        ? unit_name(*shown)
-                          : parameter.unit == "1" ? "–"
-                                                  : parameter.unit});
-  }
-  return table;
 }
 
 Table ranking_table(const LawResult& result) {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "studies/report/chapters/fit/calibration_chapters.h"
-#include "studies/report/chapters/fit/calibration_figures.h"
 #include "studies/report/page/words.h"
 
 namespace fingertip::studies::report::inline chapters::inline fit {

@@ -101,11 +101,9 @@ Table parameter_table(const Fit& fit) {
          value_cell(p, p.start),
          prior_cell(p),
          bias_cell(p)});
-  if (!any_known(fit, &FitParameter::bias)) table.drop_column(7);
   if (std::ranges::none_of(fit.parameters, [](const auto& p) { return p.prior.has_value(); }))
     table.drop_column(6);
-  if (!any_known(fit, &FitParameter::start)) table.drop_column(5);
-  if (!any_known(fit, &FitParameter::truth)) table.drop_column(4);
+  table.drop_unknown(4);
   if (!any_known(fit, &FitParameter::standard_error)) table.drop_column(3);
   return table;
 }

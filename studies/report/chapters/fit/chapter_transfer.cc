@@ -23,13 +23,10 @@ std::string trouble_of(const CalibrationData& data, const std::string& fit,
 /// Where the error is largest: "at 2 mm".
 std::string place(const CalibrationData& data, const std::string& fit,
                   const std::string& prediction) {
-  const TransferRow* worst = nullptr;
-  for (const TransferRow& row : data.transfer) {
-    if (row.fit != fit || row.prediction != prediction || !std::isfinite(row.relative_error))
-      continue;
-    if (worst == nullptr || std::abs(row.relative_error) > std::abs(worst->relative_error))
-      worst = &row;
-  }
+  const TransferRow* worst = largest_in(data.transfer, [&](const TransferRow& row) {
+    return row.fit == fit && row.prediction == prediction ? std::abs(row.relative_error)
+                                                          : meshes::unknown;
+  });
   return worst == nullptr ? "" : "at " + shown_units().length.text(worst->indentation);
 }
 

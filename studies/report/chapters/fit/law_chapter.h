@@ -23,8 +23,6 @@ LawResult read_laws(const std::filesystem::path& folder, FolderReader& reader);
 
 /// Every law that was fitted and its error of each test, the least AICc first.
 Table ranking_table(const LawResult& result);
-/// The law's coefficients with their intervals, in the units shown.
-Table coefficient_table(const calibration::LawEntry& law);
 /// Sums of squares over those that others published: rows of laws, a column for each test of each
 /// result that has any. Without rows where nobody published any.
 Table squares_table(const std::vector<LawResult>& results);

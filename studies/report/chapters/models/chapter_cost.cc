@@ -98,9 +98,7 @@ Table mesh_table(const fem_reference::RunSummary& summary) {
                  if_known(first.volume, number(first.volume * std::pow(length.factor, 3)) + gap +
                                             unit_name(length) + "³")}};
   // Runs of other programs or modes do not tell everything.
-  std::erase_if(table.rows, [](const std::vector<Cell>& row) {
-    return row[1].text.empty() || row[1].text == "–";
-  });
+  std::erase_if(table.rows, [](const std::vector<Cell>& row) { return row[1].is_unknown(); });
   return table;
 }
 

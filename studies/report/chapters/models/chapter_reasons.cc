@@ -90,9 +90,8 @@ constexpr std::pair<const char*, Words (*)(const RunData&, const ModelData&)> re
 /// The speed at which the lattices were pressed; "" when none was.
 std::string speed_of_presses(const RunData& run) {
   for (const ModelData& model : run.models)
-    if (!model.trace.empty())
-      return with_unit(largest_of(model.trace, &lattice::TraceRow::commanded_speed),
-                       shown_units().speed, 3);
+    if (const auto* row = largest_in(model.trace, &lattice::TraceRow::commanded_speed))
+      return with_unit(row->commanded_speed, shown_units().speed, 3);
   return "";
 }
 

@@ -10,8 +10,6 @@
 namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
-const std::string above = "outside top center horizontal";
-
 /// From zero, where nothing touches.
 Series force_series(const meshes::PressResponse& response, const std::string& name) {
   Series series = force_curve(model_label(name), name, model_style(name), response.pressing());

@@ -247,7 +247,7 @@ Chapter modes_chapter(const std::vector<VibrationMode>& modes) {
               .y_label = "frequency [Hz]",
               .x_range = Range{0.5, double(modes.size()) + 0.5},
               .y_range = Range{0.0},
-              .key = "outside top center horizontal"};
+              .key = above};
   std::map<std::string, Series> kinds;
   for (const VibrationMode& mode : modes)
     kinds

@@ -49,8 +49,8 @@ Chapter real_time_chapter(const RealTimeRecord& record);
 Chapter sliding_chapter(const meshes::PressResponse& response);
 /// Its force at full depth in a sentence, and that at the end of a lateral motion in another.
 std::string press_answer(const meshes::PressResponse& response);
-/// Frequencies and kinds of motion from modes.csv; without blocks when it is empty.
 Table modes_table(const std::vector<VibrationMode>& modes);
+/// Frequencies and kinds of motion from modes.csv; without blocks when it is empty.
 Chapter modes_chapter(const std::vector<VibrationMode>& modes);
 std::string modes_answer(const std::vector<VibrationMode>& modes);
 

@@ -1,4 +1,4 @@
-#include "lattice/kernels/parallel.h"
+#include "lattice/threads/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "lattice/kernels/spin.h"
+#include "lattice/threads/spin.h"
 
-namespace fingertip::lattice::inline kernels {
+namespace fingertip::lattice::inline threads {
 
 namespace {
 
@@ -178,4 +178,4 @@ void Team::run(std::size_t count, std::size_t grain, Borrowed body) {
   body.call(body.self, 0, count);
 }
 
-}  // namespace fingertip::lattice::inline kernels
+}  // namespace fingertip::lattice::inline threads

@@ -1,5 +1,5 @@
 // Loops on a team of threads: every iteration once, whatever happens.
-#include "lattice/kernels/parallel.h"
+#include "lattice/threads/parallel.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <numeric>
 
-#include "lattice/kernels/parallel.h"
+#include "lattice/threads/parallel.h"
 
-namespace fingertip::lattice::inline kernels {
+namespace fingertip::lattice::inline threads {
 
 /// body(begin, end) for `portions` pieces that cover [0, count), concurrently; their sum in order,
 /// the same bits for any number of threads. Allocates nothing.
@@ -21,4 +21,4 @@ double sum_in_portions(Team& team, std::size_t count, const Body& body) {
   return std::accumulate(part.begin(), part.end(), 0.0);
 }
 
-}  // namespace fingertip::lattice::inline kernels
+}  // namespace fingertip::lattice::inline threads

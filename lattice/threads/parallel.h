@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-namespace fingertip::lattice::inline kernels {
+namespace fingertip::lattice::inline threads {
 
 /// Runs loops on at most `threads` threads, the calling one included. The result of a loop must not
 /// depend on who runs which of its iterations.
@@ -45,4 +45,4 @@ class Team {
   std::shared_ptr<Crew> crew_;  ///< null for one thread
 };
 
-}  // namespace fingertip::lattice::inline kernels
+}  // namespace fingertip::lattice::inline threads

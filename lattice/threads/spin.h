@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-namespace fingertip::lattice::inline kernels {
+namespace fingertip::lattice::inline threads {
 
 /// Looks again and again whether `done()`, for about `patience`; returns whether it is. Anything
 /// that takes less than some ten microseconds is missed by a thread that goes to sleep.
@@ -22,4 +22,4 @@ bool spin_until(const Done& done, std::chrono::nanoseconds patience) {
   return done();
 }
 
-}  // namespace fingertip::lattice::inline kernels
+}  // namespace fingertip::lattice::inline threads
