@@ -12,6 +12,7 @@
 #include "calibration/statistics/curve_fit.h"
 #include "calibration/statistics/curve_residuals.h"
 #include "meshes/base/errors.h"
+#include "tests/expectations.h"
 
 namespace fit_fixtures {
 
@@ -105,15 +106,6 @@ inline CurveFitOptions e_and_g() {
   options.free = {{.parameter = youngs_modulus, .start = 4500.0},
                   {.parameter = shear_modulus, .start = 1540.0}};
   return options;
-}
-
-inline std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const meshes::InvalidInput& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 }  // namespace fit_fixtures

@@ -17,7 +17,6 @@
 #include "studies/config/loader.h"
 #include "studies/files/json_entry.h"
 #include "studies/jobs/cache.h"
-#include "studies/jobs/json_file.h"
 #include "studies/jobs/result_files.h"
 #include "studies/measurements/curve_file.h"
 #include "studies/measurements/material_test_file.h"
@@ -420,7 +419,7 @@ TEST(FuzzData, JsonAndTablesOfRunFolders) {
                }));
   fuzz::attack({{summary}, json_words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
                  write_text(file, input);
-                 EXPECT_FALSE(studies::read_json(file).is_discarded());
+                 EXPECT_FALSE(studies::parse_json(file).is_discarded());
                }));
   fuzz::attack({{"time [s],speed [m/s]\n0,0.1\n# a remark\n1,\"0.2\"\n", "a\n1\n2\n"},
                 {",", "\"", "\"\"", "\n", "#", "[m]", "\r"}},

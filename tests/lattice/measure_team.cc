@@ -1,4 +1,4 @@
-// Prints what loops cost on the lattice's own threads (lattice/kernels/parallel.h) and on oneTBB's,
+// Prints what loops cost on the lattice's own threads (lattice/threads/parallel.h) and on oneTBB's,
 // on a quiet machine and beside threads that never rest: microseconds of wall time, medians and, in
 // brackets, means; they take turns of a tenth of a second. Not a test:
 // lattice/MEASUREMENTS.md quotes it.
@@ -18,7 +18,7 @@
 
 #include "lattice/forces/cell_arrays.h"
 #include "lattice/kernels/cell_kernel.h"
-#include "lattice/kernels/parallel.h"
+#include "lattice/threads/parallel.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;

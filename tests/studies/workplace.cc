@@ -30,6 +30,7 @@ Program Workplace::start(const std::string& command, const Words& settings) cons
 }
 
 ProgramResult Workplace::run(const std::string& command, const Words& settings, int code) const {
+  SCOPED_TRACE(testing::PrintToString(settings));
   ProgramResult result = start(command, settings).wait();
   const bool expected = code == any_code || result.code == code ||
                         (code == judged && (result.code == 0 || result.code == 4));
@@ -39,6 +40,7 @@ ProgramResult Workplace::run(const std::string& command, const Words& settings, 
 
 void Workplace::expect_refused(const std::string& command, const Words& settings,
                                const Parts& parts) const {
+  SCOPED_TRACE(testing::PrintToString(settings));
   const std::vector<std::string> before = made_in(path());
   EXPECT_TRUE(says(run(command, settings, 2).err, parts));
   EXPECT_EQ(made_in(path()), before) << command << " wrote something";

@@ -233,9 +233,12 @@ TEST(ModuliFit, FiniteCubesOfTheFittedLatticesMeasureTheTargets) {
 }
 
 TEST(ModuliFit, NamesTheOneDirectionThatChangesNoModulus) {
+  const Eigen::Vector4d open = fingertip::calibration::open_direction();
+  EXPECT_LT((open / open(0) - Eigen::Vector4d(1.0, -1.0, 0.75, 0.0)).norm(), 1e-15);
+  EXPECT_STREQ(fingertip::calibration::open_direction_words, "k1 + 1, k2 - 1, k3 + 0.75");
   for (const ModelKind model : {ModelKind::hookean, ModelKind::central}) {
     const ModuliFit result = fit(Rubber{}, model);
-    const Eigen::Vector4d t = 0.1 * result.constants.k2 * fingertip::calibration::open_direction;
+    const Eigen::Vector4d t = 0.1 * result.constants.k2 * open;
     SpringConstants moved = result.constants;
     moved.k1 += t(0), moved.k2 += t(1), moved.k3 += t(2), moved.kappa += t(3);
     const ElasticModuli found = homogenised_moduli(moved, a);

@@ -23,7 +23,6 @@ using namespace fingertip;
 using namespace fingertip::calibration;
 using Eigen::Index;
 using Eigen::VectorXd;
-using fit_fixtures::refusal;
 using meshes::ContactMode;
 using meshes::Vector3;
 

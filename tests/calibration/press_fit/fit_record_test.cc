@@ -70,10 +70,6 @@ std::vector<FitDataRow> rows_of(const FitRecord& record) {
   return meshes::read_rows<FitDataRow>(folder.path() / "fit_data.csv");
 }
 
-bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 /// An error of 0.5 that all values of a model share: residuals are far beyond sigma, and chi-square
@@ -140,11 +136,11 @@ TEST(FitRecord, TheMisfitHasOneNormWithItsName) {
   }
   const std::string norm = percent(std::sqrt(squares / 979.0)) +
                            " (root mean square of the residuals over that of the data)";
-  EXPECT_TRUE(says(fit_statement(record), "meets the data within " + norm)) << norm;
+  EXPECT_TRUE(says(fit_statement(record), "meets the data within " + norm));
   EXPECT_TRUE(says(fit_statement(record), "within " + percent(worst) + " of itself."));
   const std::vector<std::string> failed = failed_tests(record);
   ASSERT_FALSE(failed.empty());
-  EXPECT_TRUE(says(failed[0], "bent is missed by " + norm)) << failed[0];
+  EXPECT_TRUE(says(failed[0], "bent is missed by " + norm));
   record.curves[0].is_travel = true;
   EXPECT_TRUE(says(fit_statement(record), " of its curve's largest."));
 }
@@ -161,7 +157,7 @@ TEST(FitRecord, TellsWhichValuesOfARigWereGiven) {
   record.rig[0].of = "press B";
   EXPECT_TRUE(says(fit_statement(record), " No compliance of press B is given"));
   record.rig[0].given = true;
-  EXPECT_FALSE(says(fit_statement(record), "No compliance"));
+  EXPECT_TRUE(omits(fit_statement(record), "No compliance"));
 }
 
 TEST(FitRecord, ALoopIsTheRubbersOrTheMachinesByItsSign) {
@@ -171,13 +167,14 @@ TEST(FitRecord, ALoopIsTheRubbersOrTheMachinesByItsSign) {
   curve.course.loop = -0.067;
   curve.course.play = 1e-4;
   const std::string told = fit_statement(record_of({curve}, one_modulus()));
-  EXPECT_TRUE(says(told, "lies above the loading by 6.7 % of its work")) << told;
-  EXPECT_TRUE(says(told, "0.0001 m of play or lag of the machine's travel")) << told;
-  EXPECT_FALSE(says(told, "relaxes")) << told;
+  EXPECT_TRUE(says(told, "lies above the loading by 6.7 % of its work"));
+  EXPECT_TRUE(says(told, "0.0001 m of play or lag of the machine's travel"));
+  EXPECT_TRUE(omits(told, "relaxes"));
   // Such a fit is not accepted. Below 2 % of the work, or within the noise of the area, it is
   // nothing: 0.1 mm times 4 N are 0.4 mJ, three errors 6 · 4 m · noise/sqrt(100 rows).
   const auto fails = [&] {
-    return says(in_one(failed_tests(record_of({curve}, one_modulus()))), "rows = [first, last]");
+    return bool(
+        says(in_one(failed_tests(record_of({curve}, one_modulus()))), "rows = [first, last]"));
   };
   EXPECT_TRUE(fails());
   curve.course.rows = 100;
@@ -215,10 +212,10 @@ TEST(FitRecord, TheRemedyForAnOpenDirectionIsOneThatIsLeft) {
     return all;
   };
   const std::string of_machine = advice(compliance), of_rubber = advice(shear_modulus);
-  EXPECT_TRUE(says(of_machine, "direction open)")) << of_machine;
-  EXPECT_FALSE(says(of_machine, "hold Poisson's ratio")) << of_machine;
-  EXPECT_TRUE(says(of_machine, "calibration.rig")) << of_machine;
-  EXPECT_TRUE(says(of_rubber, "hold Poisson's ratio")) << of_rubber;
+  EXPECT_TRUE(says(of_machine, "direction open)"));
+  EXPECT_TRUE(omits(of_machine, "hold Poisson's ratio"));
+  EXPECT_TRUE(says(of_machine, "calibration.rig"));
+  EXPECT_TRUE(says(of_rubber, "hold Poisson's ratio"));
 }
 
 /// E and G within 21 and 35 % that rise together are not told apart: Poisson's ratio +-0.2 is what
@@ -261,7 +258,7 @@ TEST(FitRecord, EAndGThatLeaveTheRatioOpenAreNotDetermined) {
   EXPECT_LT(open.fit.unidentifiable[0].interval, 1.0);
   EXPECT_TRUE(says(in_one(failed_tests(open)), "Poisson's ratio (95 %: +-0.2), and so not E and G"))
       << in_one(failed_tests(open));
-  EXPECT_FALSE(says(in_one(failed_tests(told)), "Poisson's ratio"));
+  EXPECT_TRUE(omits(in_one(failed_tests(told)), "Poisson's ratio"));
 }
 
 /// F = (x - 0.3)^1.15 behind four rows without force, which a press of power 2 meets only with a
@@ -299,7 +296,7 @@ TEST(FitRecord, ATouchBeforeRowsWithoutForceIsContradictedByThem) {
     return all;
   };
   EXPECT_TRUE(says(judged(0.0), "lies before the first row of a, 0 m, where the model has"));
-  EXPECT_FALSE(says(judged(1.0), "lies before the first row"));
+  EXPECT_TRUE(omits(judged(1.0), "lies before the first row"));
 }
 
 /// Errors that follow each other (r = 0.9): 200 values are as good as 10. 95 % of 200 intervals

@@ -21,7 +21,6 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 using enum MaterialParameter;
-using fit_fixtures::refusal;
 
 namespace {
 

@@ -228,7 +228,9 @@ TEST(CurveChecks, ScaledStartsFindTheRubberOfAPoissonsRatio) {
                             {youngs_modulus, shear_modulus});
   CurveFitOptions options = e_and_g();
   const double nu = rubber.poissons_ratio();
-  auto starts = scaled_starts({curve}, {&model}, options, {nu, 0.3}).valleys;
+  auto [starts, others] = scaled_starts({curve}, {&model}, options, {nu, 0.3});
+  ASSERT_EQ(others.size(), 1u);
+  EXPECT_NEAR(others[0](0) / others[0](1), 2.6, 1e-12);
   ASSERT_EQ(starts.size(), 1u) << "0.3 lies on the slope of the valley at nu";
   EXPECT_NEAR(starts[0](0) / rubber.youngs_modulus, 1.0, 1e-9);
   EXPECT_NEAR(starts[0](1) / rubber.shear_modulus, 1.0, 1e-9);

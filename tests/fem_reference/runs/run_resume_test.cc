@@ -62,7 +62,11 @@ TEST(Resume, PassesOverAForeignCheckpoint) {
   ReferenceJob job = small_job();
   job.estimate_error = false;
   const fs::path folder = run_folder(parent, "run", job);
-  for (const char* text : {R"({"job": "another", "history": []})", R"({"job": )", "[]"}) {
+  const nlohmann::json other_form{{"job", read_text(folder / "job.json")},
+                                  {"history", nlohmann::json::array({{{"cells", 1}}})}};
+  for (const std::string& text :
+       {std::string(R"({"job": "another", "mesh_history": []})"), std::string(R"({"job": )"),
+        std::string("[]"), other_form.dump()}) {
     fs::create_directories(folder / "checkpoint");
     write_text(folder / "checkpoint/run.json", text);
     EXPECT_EQ(carry_out(folder), 0) << text;

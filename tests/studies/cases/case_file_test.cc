@@ -91,18 +91,18 @@ TEST(Cases, RefusesRunsAndTablesThatMeanNothing) {
   const TemporaryFolder folder;
   const std::string press = "[[case.run]]\nverb = \"press\"\nname = \"a\"\n";
   EXPECT_EQ(refusal(folder, press), "");
-  EXPECT_TRUE(has(refusal(folder, "[[case.run]]\nname = \"a\"\n"), "must say what is run"));
-  EXPECT_TRUE(has(refusal(folder, press + "when = \"finer\"\n"), "must be coarser or another"));
-  EXPECT_TRUE(has(refusal(folder, press + "beside = \"b\"\n"), "must be a press above"));
-  EXPECT_TRUE(has(refusal(folder, press + "snapshots = true\n"), "no such entry of a run"));
-  EXPECT_TRUE(has(refusal(folder, press + "times = { \"press.depth\" = 2.0 }\n"), "a factor"));
+  EXPECT_TRUE(says(refusal(folder, "[[case.run]]\nname = \"a\"\n"), "must say what is run"));
+  EXPECT_TRUE(says(refusal(folder, press + "when = \"finer\"\n"), "must be coarser or another"));
+  EXPECT_TRUE(says(refusal(folder, press + "beside = \"b\"\n"), "must be a press above"));
+  EXPECT_TRUE(says(refusal(folder, press + "snapshots = true\n"), "no such entry of a run"));
+  EXPECT_TRUE(says(refusal(folder, press + "times = { \"press.depth\" = 2.0 }\n"), "a factor"));
   const std::string table = "[[case.table]]\nfile = \"t.csv\"\nseries = \"\"\n";
   EXPECT_EQ(refusal(folder, press + table + "columns = [\"name\"]\n"), "");
-  EXPECT_TRUE(has(refusal(folder, press + table + "columns = [\"nam\"]\n"), "one is name"));
-  EXPECT_TRUE(has(refusal(folder, table + "columns = [\"name\"]\n"), "needs exactly file"));
-  EXPECT_TRUE(has(refusal(folder, press + "[[case.table]]\nfile = \"../t.csv\"\nseries = \"\"\n"
-                                          "columns = []\n"),
-                  "needs exactly file"));
+  EXPECT_TRUE(says(refusal(folder, press + table + "columns = [\"nam\"]\n"), "one is name"));
+  EXPECT_TRUE(says(refusal(folder, table + "columns = [\"name\"]\n"), "needs exactly file"));
+  EXPECT_TRUE(says(refusal(folder, press + "[[case.table]]\nfile = \"../t.csv\"\nseries = \"\"\n"
+                                           "columns = []\n"),
+                   "needs exactly file"));
 }
 
 TEST(Cases, TablesHaveTheColumnsThatTheReportReads) {

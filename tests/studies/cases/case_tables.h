@@ -6,6 +6,7 @@
 #include "studies/cases/measures.h"
 #include "studies/cases/planner.h"
 #include "studies/cases/validation.h"
+#include "tests/expectations.h"
 #include "tests/temporary_folder.h"
 
 /// The case whose table [case] ends with `table`, after a press of two samples and `settings`.
@@ -19,12 +20,8 @@ inline fingertip::studies::Case case_with(const TemporaryFolder& folder, const s
 /// What is said against that case; empty when it is a good one.
 inline std::string refusal(const TemporaryFolder& folder, const std::string& table,
                            const std::string& settings = {}) {
-  try {
-    check_case(case_with(folder, table, settings));
-  } catch (const fingertip::studies::ConfigError& error) {
-    return error.what();
-  }
-  return {};
+  return ::refusal<fingertip::studies::ConfigError>(
+      [&] { check_case(case_with(folder, table, settings)); });
 }
 
 /// The jobs of its first stage.
@@ -41,8 +38,4 @@ inline fingertip::studies::RunResult finished_run(const fingertip::studies::Case
   result.status = fingertip::studies::finished;
   result.measures = measures;
   return result;
-}
-
-inline bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }

@@ -42,16 +42,16 @@ TEST(ControlCase, PlansPressesAndTheContinuaAtTheirSpeeds) {
 TEST(ControlCase, RefusesWhatIsNoPressInTime) {
   const TemporaryFolder folder;
   const std::string head = "[[case.press]]\nname = \"a\"\n";
-  EXPECT_TRUE(has(refusal(folder, head + "set = { \"press.mode\" = \"static\" }\n"),
-                  "a press under a controller takes time"));
-  EXPECT_TRUE(
-      has(refusal(folder, head + "set = { \"reference.mode\" = \"static\" }\n"), "reference.mode"));
-  EXPECT_TRUE(has(refusal(folder, head + "beside = \"b\"\nset = {}\n"), "must be a press above"));
-  EXPECT_TRUE(has(refusal(folder, head + "continuum = 1\nset = {}\n"), "must be of another type"));
-  EXPECT_TRUE(has(refusal(folder, head + "contiuum = true\nset = {}\n"), "no such entry"));
-  EXPECT_TRUE(has(refusal(folder, head + "set = {}\n[[case.criteria]]\nname = \"c\"\n"
-                                         "measure = \"a.change\"\nlimit = 1.0\n"),
-                  "unknown measure"));
+  EXPECT_TRUE(says(refusal(folder, head + "set = { \"press.mode\" = \"static\" }\n"),
+                   "a press under a controller takes time"));
+  EXPECT_TRUE(says(refusal(folder, head + "set = { \"reference.mode\" = \"static\" }\n"),
+                   "reference.mode"));
+  EXPECT_TRUE(says(refusal(folder, head + "beside = \"b\"\nset = {}\n"), "must be a press above"));
+  EXPECT_TRUE(says(refusal(folder, head + "continuum = 1\nset = {}\n"), "must be of another type"));
+  EXPECT_TRUE(says(refusal(folder, head + "contiuum = true\nset = {}\n"), "no such entry"));
+  EXPECT_TRUE(says(refusal(folder, head + "set = {}\n[[case.criteria]]\nname = \"c\"\n"
+                                          "measure = \"a.change\"\nlimit = 1.0\n"),
+                   "unknown measure"));
 }
 
 TEST(ControlCase, ASeriesIsJudgedByItsWorstPress) {

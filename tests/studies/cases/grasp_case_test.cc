@@ -61,17 +61,17 @@ TEST(GraspCase, PlansAGraspEachOnce) {
 TEST(GraspCase, RefusesWhatCannotBeGraspedOrJudged) {
   const TemporaryFolder folder;
   const std::string head = "[[case.grasp]]\nname = \"a\"\n";
-  EXPECT_TRUE(has(refusal(folder, head + "set = { \"grasp.block_mass\" = \"-1 g\" }\n", of_grasps),
-                  "grasp.block_mass"));
+  EXPECT_TRUE(says(refusal(folder, head + "set = { \"grasp.block_mass\" = \"-1 g\" }\n", of_grasps),
+                   "grasp.block_mass"));
   EXPECT_TRUE(
-      has(refusal(folder, head + "set = { \"lattice.model\" = \"published\" }\n", of_grasps),
-          "(variant a)"));
-  EXPECT_TRUE(has(refusal(folder, head + "sett = {}\n", of_grasps), "no such entry"));
-  EXPECT_TRUE(has(refusal(folder,
-                          head + "set = {}\n[[case.criteria]]\nname = \"c\"\n"
-                                 "measure = \"a.slip\"\nlimit = 1.0\n",
-                          of_grasps),
-                  "unknown measure"));
+      says(refusal(folder, head + "set = { \"lattice.model\" = \"published\" }\n", of_grasps),
+           "(variant a)"));
+  EXPECT_TRUE(says(refusal(folder, head + "sett = {}\n", of_grasps), "no such entry"));
+  EXPECT_TRUE(says(refusal(folder,
+                           head + "set = {}\n[[case.criteria]]\nname = \"c\"\n"
+                                  "measure = \"a.slip\"\nlimit = 1.0\n",
+                           of_grasps),
+                   "unknown measure"));
 }
 
 TEST(GraspCase, TheLimitLiesBetweenWhatHoldsAndWhatDoesNot) {

@@ -61,20 +61,20 @@ TEST_F(MaterialCase, RunsThatAskOfTheSameFitShareItsJob) {
 
 TEST_F(MaterialCase, RefusesLawsAndTestsThatAreNotThere) {
   EXPECT_EQ(refusal(folder_, run("name = \"a\"\nlaw = \"gent\"\ntest = \"near\""), settings_), "");
-  EXPECT_TRUE(has(refusal(folder_, run("name = \"a\"\nlaw = \"hooke\""), settings_),
-                  "must be a law of calibration.laws"));
-  EXPECT_TRUE(has(refusal(folder_, run("name = \"a\"\ntest = \"fat\""), settings_),
-                  "the nearest one is far"));
+  EXPECT_TRUE(says(refusal(folder_, run("name = \"a\"\nlaw = \"hooke\""), settings_),
+                   "must be a law of calibration.laws"));
+  EXPECT_TRUE(says(refusal(folder_, run("name = \"a\"\ntest = \"fat\""), settings_),
+                   "the nearest one is far"));
   EXPECT_TRUE(
-      has(refusal(folder_,
-                  run("name = \"a\"\nlaw = \"gent\"\nset = {\"calibration.laws\" = [\"yeoh-2\"]}"),
-                  settings_),
-          "is not fitted"));
-  EXPECT_TRUE(has(refusal(folder_, run("name = \"a\"\nbeside = \"b\""), settings_),
-                  "no such entry of a material"));
+      says(refusal(folder_,
+                   run("name = \"a\"\nlaw = \"gent\"\nset = {\"calibration.laws\" = [\"yeoh-2\"]}"),
+                   settings_),
+           "is not fitted"));
+  EXPECT_TRUE(says(refusal(folder_, run("name = \"a\"\nbeside = \"b\""), settings_),
+                   "no such entry of a material"));
   unsetenv("FINGERTIP_TEST_DATA");
-  EXPECT_TRUE(has(refusal(folder_, run("name = \"a\""), settings_),
-                  "no environment variable FINGERTIP_TEST_DATA is set"));
+  EXPECT_TRUE(says(refusal(folder_, run("name = \"a\""), settings_),
+                   "no environment variable FINGERTIP_TEST_DATA is set"));
 }
 
 TEST_F(MaterialCase, WithoutItsDataItSaysWhereTheyAre) {
@@ -87,15 +87,15 @@ TEST_F(MaterialCase, WithoutItsDataItSaysWhereTheyAre) {
   EXPECT_EQ(missing_data(study_case),
             "its data are no part of the project: get the library, and name their folder in "
             "FINGERTIP_TEST_DATA");
-  EXPECT_TRUE(has(refusal(folder_, table, settings_), "get the library"));
+  EXPECT_TRUE(says(refusal(folder_, table, settings_), "get the library"));
   setenv("FINGERTIP_TEST_DATA", (folder_ / "nowhere").c_str(), 1);
   EXPECT_NE(missing_data(study_case), "");
   // What a run keeps of its case tells it, too.
   write_text(folder_ / "again.toml", settings_ + study_case.text);
   EXPECT_EQ(load_case(folder_ / "again.toml", {}).data.source, "the library");
   EXPECT_TRUE(
-      has(refusal(folder_, "[case.data]\nfolder = \"A\"\n" + run("name = \"a\""), settings_),
-          "needs exactly folder"));
+      says(refusal(folder_, "[case.data]\nfolder = \"A\"\n" + run("name = \"a\""), settings_),
+           "needs exactly folder"));
 }
 
 LawTestEntry entry(const char* name, const char* use, double error, double within, double squares,

@@ -146,24 +146,24 @@ TEST(Variants, ProblemsAreToldWithTheLineOfTheVariant) {
     return "[[case.variant]]\nname = \"odd\"\nset = { " + set + " }\n";
   };
   EXPECT_TRUE(
-      has(refusal(folder, variant_with("\"lattice.spacin\" = \"1 mm\"")), "lattice.spacing"));
+      says(refusal(folder, variant_with("\"lattice.spacin\" = \"1 mm\"")), "lattice.spacing"));
   const std::string coarse = refusal(folder, variant_with("\"lattice.spacing\" = \"0.3 cm\""));
-  EXPECT_TRUE(has(coarse, "case.toml:5 (variant odd): lattice.spacing = 0.3 cm")) << coarse;
+  EXPECT_TRUE(says(coarse, "case.toml:5 (variant odd): lattice.spacing = 0.3 cm")) << coarse;
   const std::string unknown = refusal(folder, variant_with("\"lattice.spacing\" = \"1 furlongg\""));
-  EXPECT_TRUE(has(unknown, "case.toml:5 (variant odd)")) << unknown;
-  EXPECT_TRUE(has(refusal(folder, variant_with("\"press.mode\" = \"pid\"")), "static press"));
+  EXPECT_TRUE(says(unknown, "case.toml:5 (variant odd)")) << unknown;
+  EXPECT_TRUE(says(refusal(folder, variant_with("\"press.mode\" = \"pid\"")), "static press"));
   EXPECT_TRUE(
-      has(refusal(folder, variant_with("\"reference.strain\" = \"finite\"")), "kinematics"));
-  EXPECT_TRUE(has(refusal(folder, variant_with("lattice = { spacing = \"1 mm\" }")), "in quotes"));
+      says(refusal(folder, variant_with("\"reference.strain\" = \"finite\"")), "kinematics"));
+  EXPECT_TRUE(says(refusal(folder, variant_with("lattice = { spacing = \"1 mm\" }")), "in quotes"));
   EXPECT_TRUE(
-      has(refusal(folder, variant_with("\"press.contact\" = \"coulomb\"")), "press.contact"));
-  EXPECT_TRUE(has(refusal(folder, variant_with("") + variant_with("")), "once in a series"));
+      says(refusal(folder, variant_with("\"press.contact\" = \"coulomb\"")), "press.contact"));
+  EXPECT_TRUE(says(refusal(folder, variant_with("") + variant_with("")), "once in a series"));
   EXPECT_TRUE(
-      has(refusal(folder, variant_with("") + "[[case.budget]]\nname = \"b\"\nparts = [\"s\"]\n"),
-          "x = 1"));
-  EXPECT_TRUE(has(refusal(folder, variant_with("") + "[[case.criteria]]\nname = \"c\"\nmeasure = "
-                                                     "\"variants.worst_eror\"\nlimit = 1\n"),
-                  "variants.worst_error"));
+      says(refusal(folder, variant_with("") + "[[case.budget]]\nname = \"b\"\nparts = [\"s\"]\n"),
+           "x = 1"));
+  EXPECT_TRUE(says(refusal(folder, variant_with("") + "[[case.criteria]]\nname = \"c\"\nmeasure = "
+                                                      "\"variants.worst_eror\"\nlimit = 1\n"),
+                   "variants.worst_error"));
   EXPECT_EQ(refusal(folder, variant_with("\"lattice.spacing\" = \"tip_radius/7\"")), "");
 }
 

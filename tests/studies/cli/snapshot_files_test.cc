@@ -64,8 +64,7 @@ TEST(SnapshotFiles, OfAStaticPressComeFromTheCacheAndAreDrawn) {
   EXPECT_TRUE(folder.has("two/figures/snapshots_1.svg"));
 }
 
-// Neither the files nor, in summary.json, the finger's measures.
-TEST(SnapshotFiles, AStaticPressOfEarlierVersionsIsReportedWithoutThem) {
+TEST(SnapshotFiles, AStaticPressIsReportedWithoutThem) {
   const Workplace folder;
   press_at_rest(folder, "old");
   json finished = folder.json("old/finished.json");
@@ -74,9 +73,6 @@ TEST(SnapshotFiles, AStaticPressOfEarlierVersionsIsReportedWithoutThem) {
     ASSERT_EQ(finished["files"].erase(file), 1U);
   }
   folder.put("old/finished.json", finished.dump());
-  json summary = folder.json("old/summary.json");
-  ASSERT_EQ(summary.erase("geometry"), 1U);
-  folder.put("old/summary.json", summary.dump());
   EXPECT_EQ(folder.run("report old").err, "");
   EXPECT_TRUE(omits(folder.text("old/report.html"), {drawn, "is missing"}));
 }

@@ -210,11 +210,12 @@ const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawA
     "calibration.branches", "calibration.stretch_range",
     // Of measured files; see ChangesWithItsDataAndHowTheyWereTaken.
     "calibration.rig", "calibration.machine", "calibration.candidates", "calibration.intervals",
+    // No search of moduli has random starts any more; those of laws see law_job_test.
+    "calibration.starts", "calibration.seed",
     // Of plans; see IdentityOfAPlan. The other contact is another fit.
     "calibration.noise", "calibration.noise_force", "calibration.contact"};
 /// Of the fit of constants to moduli.
-const Sets moduli_fit = {"calibration.starts", "calibration.seed", "calibration.isotropy_weight",
-                         "calibration.bulk_weight"};
+const Sets moduli_fit = {"calibration.isotropy_weight", "calibration.bulk_weight"};
 /// What becomes of a fit: further jobs.
 const Sets follow_up = {"calibration.bias", "calibration.surrogate"};
 const Sets controllers = split(
@@ -293,7 +294,7 @@ const World worlds[] = {
          split("press. obstacle. geometry.rod_radius geometry.sleeve_length geometry.rod_length "
                "lattice.offset lattice.rotation lattice.constants lattice.kinematics "
                "lattice.ligament_stiffness lattice.contact_stiffness calibration.data "
-               "calibration.starts calibration.seed calibration.conditions calibration.depth "
+               "calibration.conditions calibration.depth "
                "calibration.points calibration.parameters "
                "calibration.forward calibration.prior calibration.model_error "
                "calibration.robust_width calibration.poisson_range calibration.evaluations "

@@ -8,6 +8,7 @@
 
 #include "meshes/press/no_equilibrium.h"
 #include "studies/jobs/fem_launch.h"
+#include "tests/expectations.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
@@ -58,10 +59,6 @@ class FemProcess : public testing::Test {
 
 /// Shell: the number of this rank.
 constexpr const char* rank = "$OMPI_COMM_WORLD_RANK";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 }  // namespace
 
@@ -120,16 +117,16 @@ TEST_F(FemProcess, TheTimeLeftThatARunTellsIsItsProgress) {
   EXPECT_LT(told("1e5", "5e9"), 1e-4);  // of a machine that is slow to start a shell, too
   EXPECT_EQ(stage_.find("assemble, some 5 GB"), 0u) << stage_;
   told("1e5", "9e15");
-  EXPECT_TRUE(contains(stage_, "GB here")) << stage_;
+  EXPECT_TRUE(says(stage_, "GB here")) << stage_;
 }
 
 TEST_F(FemProcess, ALostProcessIsToldWithItsSignalAndWhereTheSamplesAre) {
-  EXPECT_TRUE(contains(loss("kill -SEGV $$"), "signal 11"));
-  EXPECT_TRUE(contains(loss("kill -KILL $$"), "no sample had been finished"));
+  EXPECT_TRUE(says(loss("kill -SEGV $$"), "signal 11"));
+  EXPECT_TRUE(says(loss("kill -KILL $$"), "no sample had been finished"));
   const std::string text = loss("echo 'a,b' > \"$1/response.csv\"; kill -KILL $$");
   for (const std::string& part :
        {std::string("signal 9"), std::string("memory"), (place_ / "response.csv").string()}) {
-    EXPECT_TRUE(contains(text, part)) << part << "\nin\n" << text;
+    EXPECT_TRUE(says(text, part)) << part << "\nin\n" << text;
   }
 }
 
@@ -174,7 +171,7 @@ TEST_F(FemProcess, ALostRankEndsTheOthersAndIsTold) {
   const auto start = std::chrono::steady_clock::now();
   const std::string text =
       loss(std::string("[ ") + rank + " = 1 ] && sleep 0.5 && kill -KILL $$\n" + "exec sleep 60");
-  EXPECT_TRUE(contains(text, "signal 9")) << text;
+  EXPECT_TRUE(says(text, "signal 9")) << text;
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 

@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
+#include "studies/files/json_entry.h"
 #include "studies/jobs/file_lock.h"
-#include "studies/jobs/json_file.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
@@ -27,7 +27,7 @@ TEST(RunFolder, TellsWhatItIsFromTheFirstMoment) {
   const TemporaryFolder place;
   const LoadedConfig loaded = load_config({{}, {"press.depth=0.2 cm"}, {}});
   RunFolder folder(into(place / "a/b/run"), loaded);
-  const auto manifest = read_json(place / "a/b/run/manifest.json");
+  const auto manifest = parse_json(place / "a/b/run/manifest.json");
   EXPECT_EQ(manifest["status"], "running");
   EXPECT_EQ(manifest["command_line"][1], "press");
   for (const char* entry :
@@ -37,14 +37,14 @@ TEST(RunFolder, TellsWhatItIsFromTheFirstMoment) {
   EXPECT_EQ(load_config({folder.path() / "parameters.toml", {}, {}}).config.press.protocol.depth,
             0.002);
   folder.finish("finished", 0);
-  EXPECT_EQ(read_json(folder.path() / "manifest.json")["status"], "finished");
+  EXPECT_EQ(parse_json(folder.path() / "manifest.json")["status"], "finished");
   EXPECT_NE(read_text(folder.path() / "log.txt").find("exit code 0"), std::string::npos);
 }
 
 TEST(RunFolder, SaysFailedWhenItIsAbandoned) {
   const TemporaryFolder place;
   { const RunFolder folder(into(place / "run"), load_config({})); }
-  EXPECT_EQ(read_json(place / "run/manifest.json")["status"], "failed");
+  EXPECT_EQ(parse_json(place / "run/manifest.json")["status"], "failed");
 }
 
 TEST(RunFolder, RefusesAnExistingFolderAndLeavesItAlone) {
@@ -72,7 +72,7 @@ TEST(RunFolder, ForceReplacesOnceTheRunGotThroughItsInput) {
     folder.discard();
   }
   EXPECT_EQ(read_text(place / "run/response.csv"), "old") << "bad input must not cost old results";
-  EXPECT_EQ(read_json(place / "run/manifest.json")["status"], "finished");
+  EXPECT_EQ(parse_json(place / "run/manifest.json")["status"], "finished");
   RunFolder(forced, loaded).finish("finished", 0);
   EXPECT_FALSE(fs::exists(place / "run/response.csv"));
   EXPECT_FALSE(fs::exists(place / "run/.replaced"));

@@ -97,5 +97,5 @@ TEST(ControllerChoice, TheScheduleIsReadAndCounts) {
 TEST(ControllerChoice, BrokenRulesNameTheKeyAndItsPlace) {
   for (const char* broken : {"controller.force_bandwidth=20 Hz", "controller.release_force=0.05 N",
                              "controller.force=0.005 N"})
-    EXPECT_TRUE(says(press_refusal({"controller.type=hybrid", broken}), "controller."));
+    EXPECT_TRUE(says(press_refusal({"controller.type=hybrid", broken}), ": controller."));
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace fingertip::studies;
 
@@ -29,7 +30,7 @@ TEST(Tracking, IgnoresTheStartAndSeparatesTheTouch) {
   const TrackingEntry tracking = measure_tracking(trace, 0.070);
   EXPECT_NEAR(tracking.speed_deviation_at_touch, 0.1, 1e-12);
   EXPECT_NEAR(tracking.speed_deviation, 0.01, 1e-12);
-  EXPECT_NEAR(tracking.tilt_deg, 0.0573, 1e-4);
+  EXPECT_DOUBLE_EQ(tracking.tilt_deg, 0.001 * 180.0 / std::numbers::pi);
 }
 
 TEST(Tracking, WithoutTouchEverythingAfterTheStartCounts) {

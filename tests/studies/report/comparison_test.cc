@@ -220,8 +220,8 @@ TEST(Comparison, ForcesAgainstIndentationEndWithThePress) {
   const auto lateral = result.text.find("lateral force at full depth [mN]");
   ASSERT_NE(lateral, std::string::npos) << result.text;
   // The one displacement that both have: 1 and 0.7 N.
-  EXPECT_NE(result.text.find("1000", lateral), std::string::npos) << result.text;
-  EXPECT_NE(result.text.find("700.0", lateral), std::string::npos) << result.text;
+  EXPECT_NE(result.text.find(" 1000 ", lateral), std::string::npos) << result.text;
+  EXPECT_NE(result.text.find(" 700.0\n", lateral), std::string::npos) << result.text;
   EXPECT_EQ(result.text.find("0.1000 ", lateral), std::string::npos) << result.text;
   EXPECT_TRUE(says(read_text(folder / "out/comparison.html"), "comparison_lateral"));
 }

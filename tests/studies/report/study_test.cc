@@ -85,7 +85,7 @@ TEST(StudyReport, ShowsThePressesAndNothingOfTheCoreCase) {
   for (const char* part : {"falls from 4.0", "at R/6 to 0.25",
                            "at R/24, order 2.0; from R/12 to R/24 alone, order 2.0", "other, R/8",
                            "−1.2 %", "3.923", "0.20 %", "✕ not met"})
-    EXPECT_TRUE(says(text, part)) << "\n";
+    EXPECT_TRUE(says(text, part));
   EXPECT_TRUE(omits(text, " nan"));
 }
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "lattice/kernels/spin.h"
+#include "lattice/threads/spin.h"
 
 namespace fingertip::lattice::springs {
 

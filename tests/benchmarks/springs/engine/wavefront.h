@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice/kernels/parallel.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::springs {
 

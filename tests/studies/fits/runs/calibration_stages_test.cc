@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "meshes/base/errors.h"
+#include "studies/files/json_entry.h"
 #include "studies/jobs/cache.h"
-#include "studies/jobs/json_file.h"
 #include "tests/expectations.h"
 #include "tests/temporary_folder.h"
 
@@ -53,7 +53,7 @@ class OfTwoContacts : public testing::Test {
     }
   }
 
-  nlohmann::ordered_json calibration() const { return read_json(run_ / "calibration.json"); }
+  nlohmann::ordered_json calibration() const { return parse_json(run_ / "calibration.json"); }
 
   const TemporaryFolder folder_;
   const fs::path run_ = folder_ / "run";
@@ -64,7 +64,7 @@ class OfTwoContacts : public testing::Test {
 TEST_F(OfTwoContacts, TheOtherOneIsTakenWhereTheFirstHasNoAnswer) {
   run({"fit"});
   EXPECT_EQ(calibration()["parameters"],
-            read_json(run_ / "fit_other_contact" / "calibration.json")["parameters"]);
+            parse_json(run_ / "fit_other_contact" / "calibration.json")["parameters"]);
   EXPECT_TRUE(says(calibration()["statement"],
                    "frictionless is taken, since stick contact has no answer (beyond 3 mm)"));
   EXPECT_TRUE(fs::exists(run_ / "material.toml"));
@@ -73,7 +73,7 @@ TEST_F(OfTwoContacts, TheOtherOneIsTakenWhereTheFirstHasNoAnswer) {
 TEST_F(OfTwoContacts, TheFirstOneIsTakenWhereTheOtherHasNoAnswer) {
   run({"fit_other_contact"});
   EXPECT_EQ(calibration()["parameters"],
-            read_json(run_ / "fit" / "calibration.json")["parameters"]);
+            parse_json(run_ / "fit" / "calibration.json")["parameters"]);
   EXPECT_TRUE(fs::exists(run_ / "material.toml"));
 }
 

@@ -154,7 +154,7 @@ TEST_F(LawsReport, ACaseShowsItsFitsSideBySide) {
   for (const char* part :
        {"Laws on material tests", "1 set of tests was fitted", "foretold best, within 33",
         "7.2×10¹⁸", "1.49", "rubber, no branch", "every law that was tried", "Sums of squared"})
-    EXPECT_TRUE(says(text, part)) << "\n";
+    EXPECT_TRUE(says(text, part));
   // What has no stretch for its abscissa is not drawn; what was measured is drawn once a panel.
   const std::string csv = read_text(run_ / "figures/material_tests.csv");
   EXPECT_TRUE(
