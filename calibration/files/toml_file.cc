@@ -32,30 +32,32 @@ std::string toml_text(std::string_view text) {
   return out + '"';
 }
 
-TomlFile::TomlFile(std::filesystem::path file, std::string again)
-    : file_(std::move(file)), again_(std::move(again)) {
-  const std::ifstream in(file_, std::ios::binary);
+toml::table parsed_toml(const std::filesystem::path& file, const std::string& again) {
+  const auto refuse = [&](int line, const std::string& rule, const std::string& remedy) {
+    throw InvalidInput(
+        {"", "", rule, remedy, file.string() + (line > 0 ? ":" + std::to_string(line) : "")});
+  };
+  const std::ifstream in(file, std::ios::binary);
   std::ostringstream content;
   // Copying nothing sets the fail bit, so this refuses empty files and folders, too.
   if (!in.is_open() || !(content << in.rdbuf()))
-    throw InvalidInput({file_.string(), "", "the file cannot be read or is empty",
-                        "check path and rights, or " + again_});
-  const std::string written = content.str();
-  last_line_ = std::max(1, int(std::count(written.begin(), written.end(), '\n')));
-  if (nests_too_deep(written)) fail(1, "", "", "a key has hundreds of dotted parts", again_);
+    refuse(0, "the file cannot be read or is empty", "check path and rights, or " + again);
+  if (nests_too_deep(content.str())) refuse(0, "a key has hundreds of dotted parts", again);
   try {
-    table_ = toml::parse(written, file_.string());
+    return toml::parse(content.str(), file.string());
   } catch (const toml::parse_error& error) {
-    fail(int(error.source().begin.line), "", "", std::string(error.description()),
-         "mend the line, or " + again_);
+    refuse(int(error.source().begin.line), "not valid TOML: " + std::string(error.description()),
+           "mend the line, or " + again);
   }
+  return {};
 }
+
+TomlFile::TomlFile(std::filesystem::path file, std::string again)
+    : file_(std::move(file)), again_(std::move(again)), table_(parsed_toml(file_, again_)) {}
 
 void TomlFile::fail(int line, const std::string& key, const std::string& value,
                     const std::string& rule, const std::string& remedy) const {
-  std::string where = file_.string() + ":" + std::to_string(line);
-  if (!key.empty()) where += ": " + key;
-  throw InvalidInput({where, value, rule, remedy});
+  throw InvalidInput({key, value, rule, remedy, file_.string() + ":" + std::to_string(line)});
 }
 
 const toml::node* TomlFile::find(std::string_view section, std::string_view key) const {
@@ -65,14 +67,14 @@ const toml::node* TomlFile::find(std::string_view section, std::string_view key)
 const toml::node& TomlFile::node(std::string_view section, std::string_view key) const {
   const toml::node* found = find(section, key);
   if (found == nullptr)
-    fail(last_line_, dotted(section, key), "", "the key is missing; the file may be truncated",
-         again_);
+    fail(line(section, key), dotted(section, key), "",
+         "the key is missing; the file may be truncated", again_);
   return *found;
 }
 
 int TomlFile::line(std::string_view section, std::string_view key) const {
   const toml::node* found = find(section, key);
-  return found != nullptr ? int(found->source().begin.line) : last_line_;
+  return int(found != nullptr ? found->source().begin.line : table_.source().end.line);
 }
 
 std::string TomlFile::text(std::string_view section, std::string_view key) const {

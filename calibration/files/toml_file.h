@@ -14,11 +14,13 @@ namespace fingertip::calibration::inline files {
 /// A double-quoted TOML string.
 std::string toml_text(std::string_view text);
 
+/// The file as TOML. `again` is what to do about a damaged one. Throws InvalidInput naming file and
+/// line for what cannot be read or parsed.
+toml::table parsed_toml(const std::filesystem::path& file, const std::string& again);
+
 /// A file of sections; every refusal is an InvalidInput that names file, line and key.
 class TomlFile {
  public:
-  /// `again` is what to do about a damaged file. Throws InvalidInput for a file that cannot be read
-  /// or parsed.
   TomlFile(std::filesystem::path file, std::string again);
 
  protected:
@@ -33,6 +35,7 @@ class TomlFile {
   }
   const toml::node* find(std::string_view section, std::string_view key) const;
   const toml::node& node(std::string_view section, std::string_view key) const;
+  /// Of the key, else the last one.
   int line(std::string_view section, std::string_view key) const;
 
   std::string text(std::string_view section, std::string_view key) const;
@@ -66,7 +69,6 @@ class TomlFile {
   std::filesystem::path file_;
   std::string again_;
   toml::table table_;
-  int last_line_ = 1;
 };
 
 /// Writes what tells of a material, atomically; throws InvalidInput where a text in it is not

@@ -9,66 +9,46 @@ namespace {
 
 /// 1 where the strain grows, -1 where it falls.
 double direction(const StrainCurve& curve) {
-  return curve.strain.back() >= curve.strain.front() ? 1.0 : -1.0;
+  return curve.back().x >= curve.front().x ? 1.0 : -1.0;
 }
 
 /// At a strain within the curve; `way` is its direction.
 double interpolated(const StrainCurve& curve, double way, double strain) {
-  const auto ahead = std::ranges::lower_bound(curve.strain, way * strain, {},
-                                              [&](double value) { return way * value; });
-  const std::size_t last = curve.strain.size() - 1;
-  const std::size_t i = std::clamp<std::size_t>(std::size_t(ahead - curve.strain.begin()), 1, last);
-  const double a = curve.strain[i - 1], b = curve.strain[i];
-  return curve.stress[i - 1] + (curve.stress[i] - curve.stress[i - 1]) * (strain - a) / (b - a);
+  const auto ahead = std::ranges::lower_bound(curve, way * strain, {},
+                                              [&](const CurveRow& row) { return way * row.x; });
+  const std::size_t i =
+      std::clamp<std::size_t>(std::size_t(ahead - curve.begin()), 1, curve.size() - 1);
+  const CurveRow &a = curve[i - 1], &b = curve[i];
+  return a.y + (b.y - a.y) * (strain - a.x) / (b.x - a.x);
 }
 
 }  // namespace
 
-void StrainCurve::keep(std::size_t first, std::size_t end) {
-  for (std::vector<double>* column : {&strain, &stress, &sigma}) {
-    if (column->empty()) continue;
-    column->resize(end);
-    column->erase(column->begin(), column->begin() + std::ptrdiff_t(first));
-  }
-}
-
 CurveCleaning clean(StrainCurve& curve, const std::optional<std::array<double, 2>>& range) {
   CurveCleaning removed;
-  StrainCurve whole;
-  for (std::size_t i = 0; i < curve.strain.size(); ++i) {
-    const double strain = curve.strain[i];
-    if (std::isnan(strain) || std::isnan(curve.stress[i])) {
-      ++removed.empty;
-    } else if (range && (strain < (*range)[0] || strain > (*range)[1])) {
-      ++removed.outside;
-    } else {
-      whole.strain.push_back(strain);
-      whole.stress.push_back(curve.stress[i]);
-      if (!curve.sigma.empty()) whole.sigma.push_back(curve.sigma[i]);
-    }
-  }
-  curve = StrainCurve();
-  if (whole.strain.empty()) return removed;
-  const double way = direction(whole);
-  for (std::size_t i = 0; i < whole.strain.size(); ++i) {
-    if (!curve.strain.empty() && way * whole.strain[i] <= way * curve.strain.back()) {
-      ++removed.backward;
-      continue;
-    }
-    curve.strain.push_back(whole.strain[i]);
-    curve.stress.push_back(whole.stress[i]);
-    if (!whole.sigma.empty()) curve.sigma.push_back(whole.sigma[i]);
-  }
+  removed.empty = std::erase_if(
+      curve, [](const CurveRow& row) { return std::isnan(row.x) || std::isnan(row.y); });
+  removed.outside = std::erase_if(curve, [&](const CurveRow& row) {
+    return range && (row.x < (*range)[0] || row.x > (*range)[1]);
+  });
+  if (curve.empty()) return removed;
+  const double way = direction(curve);
+  double farthest = -INFINITY;
+  removed.backward = std::erase_if(curve, [&](const CurveRow& row) {
+    const bool back = way * row.x <= farthest;
+    farthest = std::max(farthest, way * row.x);
+    return back;
+  });
   return removed;
 }
 
 std::optional<StrainCurve> mean_curve(const std::vector<StrainCurve>& curves, std::size_t points) {
   const double way = direction(curves.front());
-  double start = way * curves.front().strain.front(), end = way * curves.front().strain.back();
+  double start = way * curves.front().front().x, end = way * curves.front().back().x;
   for (const StrainCurve& curve : curves) {
     if (direction(curve) != way) return std::nullopt;
-    start = std::max(start, way * curve.strain.front());
-    end = std::min(end, way * curve.strain.back());
+    start = std::max(start, way * curve.front().x);
+    end = std::min(end, way * curve.back().x);
   }
   if (!(start < end)) return std::nullopt;
   StrainCurve mean;
@@ -76,8 +56,7 @@ std::optional<StrainCurve> mean_curve(const std::vector<StrainCurve>& curves, st
     const double strain = way * (start + (end - start) * double(i) / double(points - 1));
     double sum = 0.0;
     for (const StrainCurve& curve : curves) sum += interpolated(curve, way, strain);
-    mean.strain.push_back(strain);
-    mean.stress.push_back(sum / double(curves.size()));
+    mean.push_back({strain, sum / double(curves.size())});
   }
   return mean;
 }

@@ -6,16 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "calibration/statistics/curve.h"
+
 namespace fingertip::calibration::inline material_tests {
 
-/// In a file's own units, signs and order; NaN where a cell is empty.
-struct StrainCurve {
-  std::vector<double> strain, stress;
-  std::vector<double> sigma;  ///< or none
-
-  /// The points from `first` up to, without, `end`.
-  void keep(std::size_t first, std::size_t end);
-};
+/// Strains x and stresses y in a file's own units, signs and order; NaN where a cell is empty.
+using StrainCurve = std::vector<CurveRow>;
 
 /// How many points were left out.
 struct CurveCleaning {

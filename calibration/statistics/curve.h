@@ -9,6 +9,15 @@
 
 namespace fingertip::calibration::inline statistics {
 
+/// A row of a measured file, as it stands there or in SI.
+struct CurveRow {
+  double x = 0.0, y = 0.0;  ///< of a test of a material strain and stress
+  double sigma = 0.0;       ///< of y; 0: unknown, then in every row
+  std::size_t line = 0;     ///< of the file
+  double time = 0.0;        ///< 0 in every row where unknown
+  int hold = 0;             ///< in which hold it was taken, from 1; 0: on the way
+};
+
 /// SI.
 struct Curve {
   std::string name;  ///< for people; may be empty

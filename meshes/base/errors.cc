@@ -15,12 +15,15 @@ std::string joined(const std::vector<Violation>& violations) {
 
 }  // namespace
 
+std::string without_remedy(const Violation& violation) {
+  std::string text = violation.place + (violation.place.empty() ? "" : ": ");
+  if (!violation.key.empty())
+    text += violation.key + (violation.value.empty() ? "" : " = " + violation.value) + ": ";
+  return text + violation.rule;
+}
+
 std::string to_string(const Violation& violation) {
-  std::string text = violation.key;
-  if (!violation.value.empty()) text += " = " + violation.value;
-  text += ": " + violation.rule;
-  if (!violation.remedy.empty()) text += "; " + violation.remedy;
-  return text;
+  return without_remedy(violation) + (violation.remedy.empty() ? "" : "; " + violation.remedy);
 }
 
 InvalidInput::InvalidInput(std::vector<Violation> violations)

@@ -11,14 +11,17 @@ namespace fingertip::meshes::inline base {
 
 /// One broken rule, in words a user can act on.
 struct Violation {
-  std::string key;     ///< configuration key, e.g. "rubber.shear_modulus", or a file name
-  std::string value;   ///< the offending value as the user would recognise it
-  std::string rule;    ///< what must hold, e.g. "G must exceed E/3"
-  std::string remedy;  ///< what to do about it
+  std::string key;         ///< configuration key, e.g. "rubber.shear_modulus", or a file name
+  std::string value;       ///< the offending value as the user would recognise it
+  std::string rule;        ///< what must hold, e.g. "G must exceed E/3"
+  std::string remedy;      ///< what to do about it
+  std::string place = {};  ///< where it was written: "file.toml:12", "--set ..."; may be empty
 };
 
-/// "key = value: rule; remedy", the form in which every violation is shown.
+/// "place: key = value: rule; remedy", the form in which every violation is shown.
 std::string to_string(const Violation& violation);
+/// The same without the remedy.
+std::string without_remedy(const Violation& violation);
 
 /// Adds what else is broken.
 inline void append(std::vector<Violation>& found, const std::vector<Violation>& more) {

@@ -13,7 +13,7 @@ std::string read_text(const fs::path& file) {
   std::error_code failed;
   const fs::file_status status = fs::status(file, failed);
   const auto refuse = [&](const char* rule, const char* remedy) {
-    throw InvalidInput({file.string(), "", rule, remedy});
+    throw InvalidInput({"", "", rule, remedy, file.string()});
   };
   if (!fs::exists(status))
     refuse("there is no such file", "check its name, or run again what writes it");

@@ -30,19 +30,17 @@ void strip(std::string& cell) {
   cell.erase(cell.begin(), std::find_if_not(cell.begin(), cell.end(), blank));
 }
 
-/// `line` neither begins nor ends with blanks.
 std::vector<std::string> split(const std::string& line, char separator) {
   std::vector<std::string> cells(1);
   bool quoted = false;
-  const auto separates = [&](char c) { return c == separator || (separator == ' ' && c == '\t'); };
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
     if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
       cells.back() += line[++i];
     } else if (c == '"') {
       quoted = !quoted;
-    } else if (separates(c) && !quoted) {
-      if (separator != ' ' || !separates(line[i - 1])) cells.emplace_back();
+    } else if (c == separator && !quoted) {
+      cells.emplace_back();
     } else {
       cells.back() += c;
     }
@@ -85,6 +83,51 @@ void check_names(const CsvTable& table, std::size_t line) {
   for (const std::string& name : table.names)
     if (!seen.insert(name).second)
       refuse(table.file, line, "", shown(name), "a column's name must occur once", table.remedy);
+}
+
+CsvTable read(const fs::path& file, bool of_people, const char* remedy) {
+  const std::string text = read_text(file);
+  CsvTable table;
+  table.file = file;
+  table.remedy = remedy;
+  char separator = ',';
+  std::size_t line = 0;
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  for (std::size_t start = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+       start < text.size();) {
+    ++line;
+    std::size_t end = text.find('\n', start);
+    if (end == std::string::npos && !of_people)
+      refuse(file, line, "", shown(text.substr(start)), "the last line must end with a line break",
+             remedy);
+    end = std::min(end, text.size());
+    const std::string whole = text.substr(start, end - start);
+    start = end + 1;
+    std::string content = whole;
+    strip(content);
+    if (content.empty() || content.front() == '#') continue;
+    const bool titles = table.names.empty();
+    if (titles && of_people) separator = separator_in(content);
+    if (separator == '\t') content = whole;  // the first and the last cell may be empty
+    if (!titles && separator != ',') std::ranges::replace(content, ',', '.');
+    std::vector<std::string> cells = split(content, separator);
+    if (titles) {
+      table.names = std::move(cells);
+      table.names_line = line;
+      check_names(table, line);
+    } else if (cells.size() == table.names.size()) {
+      table.rows.push_back(std::move(cells));
+      table.lines.push_back(line);
+    } else {
+      refuse(file, line, "", std::to_string(cells.size()) + " cells",
+             "every row must have as many cells as the first line has names (" +
+                 std::to_string(table.names.size()) + ")",
+             remedy);
+    }
+  }
+  if (table.names.empty())
+    refuse(file, 1, "", "", "the file is empty: its first line must name the columns", remedy);
+  return table;
 }
 
 }  // namespace
@@ -130,60 +173,11 @@ std::vector<double> CsvTable::numbers_if_any(const std::string& name) const {
 }
 
 CsvTable read_csv(const fs::path& file) {
-  return read_csv(file, CsvFormat());
+  return read(file, false, write_table_again);
 }
 
-CsvTable read_csv(const fs::path& file, const CsvFormat& format) {
-  const std::string text = read_text(file);
-  CsvTable table;
-  table.file = file;
-  table.remedy = format.remedy;
-  char separator = format.separator;
-  bool decimal_comma = format.decimal_comma;
-  std::size_t line = 0;
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  for (std::size_t start = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-       start < text.size();) {
-    ++line;
-    std::size_t end = text.find('\n', start);
-    if (end == std::string::npos && format.complete)
-      refuse(file, line, "", shown(text.substr(start)), "the last line must end with a line break",
-             format.remedy);
-    end = std::min(end, text.size());
-    const std::string whole = text.substr(start, end - start);
-    start = end + 1;
-    std::string content = whole;
-    strip(content);
-    if (line <= format.skip || content.empty() || content.front() == '#') continue;
-    if (separator == separator_of_names) {
-      separator = separator_in(content);
-      decimal_comma = separator != ',';
-    }
-    if (separator == '\t') content = whole;  // the first and the last cell may be empty
-    if (decimal_comma && (!format.has_names || !table.names.empty()))
-      std::ranges::replace(content, ',', '.');
-    std::vector<std::string> cells = split(content, separator);
-    if (table.names.empty() && !format.has_names)
-      for (std::size_t i = 1; i <= cells.size(); ++i) table.names.push_back(std::to_string(i));
-    if (table.names.empty()) {
-      table.names = std::move(cells);
-      table.names_line = line;
-      check_names(table, line);
-    } else if (cells.size() == table.names.size()) {
-      table.rows.push_back(std::move(cells));
-      table.lines.push_back(line);
-    } else {
-      refuse(file, line, "", std::to_string(cells.size()) + " cells",
-             "every row must have as many cells as the first line has " +
-                 std::string(format.has_names ? "names (" : "cells (") +
-                 std::to_string(table.names.size()) + ")",
-             format.remedy);
-    }
-  }
-  if (table.names.empty())
-    refuse(file, 1, "", "", "the file is empty: its first line must name the columns",
-           format.remedy);
-  return table;
+CsvTable read_csv_of_people(const fs::path& file, const char* remedy) {
+  return read(file, true, remedy);
 }
 
 }  // namespace fingertip::meshes::inline tables

@@ -22,7 +22,7 @@ struct CsvTable {
   std::filesystem::path file = {};
   std::vector<std::size_t> lines = {};  ///< of each row in `file`, counted from 1
   const char* remedy = write_table_again;
-  std::size_t names_line = 0;  ///< in `file`, counted from 1; 0: the file has none
+  std::size_t names_line = 0;  ///< in `file`, counted from 1
 
   bool empty() const { return rows.empty(); }
   bool has(const std::string& name) const;
@@ -38,29 +38,17 @@ struct CsvTable {
   std::vector<std::string> texts(const std::string& name) const;
 };
 
-/// The separator is the first of semicolon, tab and comma that stands in the line of names. Unless
-/// it is the comma, numbers may have decimal commas.
-inline constexpr char separator_of_names = '\0';
-
-/// How a table is laid out in a file of another program.
-struct CsvFormat {
-  char separator = ',';   ///< ' ' stands for any number of blanks and tabs; or separator_of_names
-  std::size_t skip = 0;   ///< lines before the table, whatever they hold
-  bool has_names = true;  ///< whether its first line names the columns; else they are 1, 2, ...
-  bool decimal_comma = false;  ///< 1,5 for 1.5; the separator is another one then
-  /// Whether the last line must end with a line break, as that of a file of this project does.
-  bool complete = true;
-  const char* remedy = write_table_again;
-};
-
 /// Cells are separated by commas; quotes may enclose them, "" stands for a quote; blanks around
 /// cells, empty lines and lines that start with # are passed over. Throws InvalidInput naming file
 /// and line when the file cannot be read, has no line of names, has two columns of one name, a row
-/// of another length, or a last line without a line break, as truncated files do.
+/// of another length, or a last line without a line break, as truncated files do. A byte order mark
+/// is passed over.
 CsvTable read_csv(const std::filesystem::path& file);
 
-/// The same for another layout; numbers get a decimal point. A byte order mark is passed over.
-/// Refusals end with `format.remedy`.
-CsvTable read_csv(const std::filesystem::path& file, const CsvFormat& format);
+/// The same of a table that people have written: the separator is the first of semicolon, tab and
+/// comma that stands in the line of names; unless it is the comma, numbers may have decimal commas,
+/// which become points; editors and spreadsheets may leave the last line open. Refusals end with
+/// `remedy`.
+CsvTable read_csv_of_people(const std::filesystem::path& file, const char* remedy);
 
 }  // namespace fingertip::meshes::inline tables

@@ -67,8 +67,8 @@ fs::path find_case(const std::string& name) {
     if (folder.starts_with(name)) return file;
     known += (known.empty() ? "" : ", ") + folder;
   }
-  throw ConfigError({{"CASE " + name, "", "", "there is no such case",
-                      "use a folder with a case.toml, or one of " + known}});
+  throw ConfigError({"", "", "there is no such case",
+                     "use a folder with a case.toml, or one of " + known, "CASE " + name});
 }
 
 Case load_case(const fs::path& file, const ConfigSource& source) {
@@ -77,15 +77,15 @@ Case load_case(const fs::path& file, const ConfigSource& source) {
                         ? fs::absolute(file).parent_path().filename().string()
                         : file.stem().string();
   study_case.title = study_case.name;
-  std::vector<Problem> problems;
+  std::vector<meshes::Violation> problems;
   try {
     ConfigSource with_file = source;
     with_file.file = file;
     study_case.loaded = load_config(with_file);
   } catch (const ConfigError& error) {
-    problems = error.problems();
+    problems = error.violations();
   }
-  const std::vector<Problem> more = read_case_table(file, study_case);
+  const std::vector<meshes::Violation> more = read_case_table(file, study_case);
   problems.insert(problems.end(), more.begin(), more.end());
   if (!problems.empty()) throw ConfigError(problems);
   study_case.text = case_toml(study_case);
@@ -119,8 +119,8 @@ LoadedConfig run_config(const Case& study_case, const CaseRun& run) {
 }
 
 ConfigError at_run(const ConfigError& error, const CaseRun& run) {
-  std::vector<Problem> problems = error.problems();
-  for (Problem& problem : problems) {
+  std::vector<meshes::Violation> problems = error.violations();
+  for (meshes::Violation& problem : problems) {
     if (sets_key(run, problem.key)) problem.place = run.place;
     problem.place += " (variant " + full_name(run) + ")";
   }

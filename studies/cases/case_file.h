@@ -131,7 +131,7 @@ ConfigError at_run(const ConfigError& error, const CaseRun& run);
 /// Fills title, description, runs, tables, budgets and criteria of `target` from the table [case]
 /// of `file`, runs and tables from the core case's where it names no run. Returns every problem
 /// with its line.
-std::vector<Problem> read_case_table(const std::filesystem::path& file, Case& target);
+std::vector<meshes::Violation> read_case_table(const std::filesystem::path& file, Case& target);
 
 /// The same as TOML text, which read_case_table understands.
 std::string case_toml(const Case& study_case);

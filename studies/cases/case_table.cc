@@ -64,7 +64,7 @@ class CaseReader {
  public:
   CaseReader(const fs::path& file, Case& target) : file_(file), target_(target) {}
 
-  std::vector<Problem> read() {
+  std::vector<meshes::Violation> read() {
     // By reference: a copy of a TOML node forgets its line.
     const toml::table root = parsed_file(file_);
     static const toml::table none;
@@ -89,10 +89,10 @@ class CaseReader {
       const fs::path file = data_folder("cases", FINGERTIP_CASES_FOLDER) / core_case / "case.toml";
       CaseReader reader(file, study_case);
       reader.is_core_ = true;
-      std::vector<Problem> problems = reader.read();
+      std::vector<meshes::Violation> problems = reader.read();
       if (study_case.runs.empty())
-        problems.push_back({file.string(), "case.run", "", "the core case must say what is run",
-                            "restore the file"});
+        problems.push_back({"case.run", "", "the core case must say what is run",
+                            "restore the file", file.string()});
       if (!problems.empty()) throw ConfigError(problems);
       return study_case;
     }();
@@ -140,7 +140,7 @@ class CaseReader {
 
   void problem(const toml::node& node, const std::string& key, const std::string& value,
                const std::string& rule, const std::string& remedy) {
-    problems_.push_back({place(node), key, value, rule, remedy});
+    problems_.push_back({key, value, rule, remedy, place(node)});
   }
 
   std::string place(const toml::node& node) const {
@@ -308,7 +308,7 @@ class CaseReader {
   fs::path file_;
   Case& target_;
   bool is_core_ = false;
-  std::vector<Problem> problems_;
+  std::vector<meshes::Violation> problems_;
 };
 
 std::string quoted(const std::string& text) {
@@ -349,7 +349,7 @@ std::string run_toml(const CaseRun& run) {
 
 }  // namespace
 
-std::vector<Problem> read_case_table(const fs::path& file, Case& target) {
+std::vector<meshes::Violation> read_case_table(const fs::path& file, Case& target) {
   return CaseReader(file, target).read();
 }
 

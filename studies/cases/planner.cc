@@ -75,14 +75,14 @@ LawInput laws_of(const LoadedConfig& loaded, const CaseRun& run) {
   LawInput input = law_input(loaded);
   const auto known = [&](const calibration::LawChoice& law) { return name(law) == run.law; };
   if (!run.law.empty() && std::ranges::none_of(input.laws, known))
-    throw ConfigError({{run.place, "case.material.law", run.law, "is not fitted",
-                        "name one of calibration.laws"}});
+    throw ConfigError(
+        {"case.material.law", run.law, "is not fitted", "name one of calibration.laws", run.place});
   std::vector<std::string> tests;
   for (const auto* list : {&input.tests.fitted, &input.tests.validation})
     for (const calibration::MaterialTest& test : *list) tests.push_back(test.name);
   if (!run.test.empty() && std::ranges::find(tests, run.test) == tests.end())
-    throw ConfigError({{run.place, "case.material.test", run.test, "there is no such test",
-                        "the nearest one is " + nearest_word(run.test, tests)}});
+    throw ConfigError({"case.material.test", run.test, "there is no such test",
+                       "the nearest one is " + nearest_word(run.test, tests), run.place});
   return input;
 }
 
@@ -119,12 +119,12 @@ Planner::Planner(const Case& study_case) : case_(study_case) {
   // The core case's models: the published one can do least.
   const auto core = std::ranges::find(study_case.runs, "published", full_name);
   if (core != study_case.runs.end() && core->is_verdict()) check_validation(study_case.loaded);
-  std::vector<Problem> problems;
+  std::vector<meshes::Violation> problems;
   for (const CaseRun& run : study_case.runs) {
     try {
       add(run);
     } catch (const ConfigError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      problems.insert(problems.end(), error.violations().begin(), error.violations().end());
     }
   }
   if (!problems.empty()) throw ConfigError(problems);
@@ -151,8 +151,8 @@ void Planner::add_press(const LoadedConfig& loaded, RunResult& result) {
   result.setup = press_setup(loaded);
   const bool at_rest = result.setup.protocol.mode == meshes::DriveMode::equilibrium;
   if (run.is("press") && at_rest)
-    throw ConfigError({{"", "press.mode", "static", "a press under a controller takes time",
-                        "choose pid, or a case with variants"}});
+    throw ConfigError({"press.mode", "static", "a press under a controller takes time",
+                       "choose pid, or a case with variants"});
   if (run.is("variant") && run.beside.empty())
     result.against = continuum_of(continuum_beside(loaded, result.setup.lattice.kinematics));
   if (run.is("press") && run.continuum) result.against = continuum_of(continuum_at_speed(loaded));

@@ -9,8 +9,8 @@ namespace fs = std::filesystem;
 
 void check_case(const Case& study_case) {
   if (const std::string missing = missing_data(study_case); !missing.empty())
-    throw ConfigError({{study_case.name, "case.data", study_case.data.variable,
-                        "the case cannot be carried out", missing}});
+    throw ConfigError({"case.data", study_case.data.variable, "the case cannot be carried out",
+                       missing, study_case.name});
   Planner(study_case).next({});
 }
 

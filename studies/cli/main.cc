@@ -37,9 +37,6 @@ int run(int argc, char** argv) {
     const auto parsed = studies::parse_command_line(argc, argv);
     if (const int* code = std::get_if<int>(&parsed)) return *code;
     return studies::run_verb(std::get<studies::CommandLine>(parsed));
-  } catch (const studies::ConfigError& error) {
-    for (const studies::Problem& problem : error.problems()) complain(to_string(problem));
-    return 2;
   } catch (const meshes::InvalidInput& error) {
     for (const meshes::Violation& violation : error.violations()) complain(to_string(violation));
     return 2;

@@ -45,7 +45,7 @@ namespace {
 /// E and G of what is given, one by one where it is one alone.
 class Elasticity {
  public:
-  Elasticity(LoadedConfig& loaded, std::vector<Problem>& problems)
+  Elasticity(LoadedConfig& loaded, std::vector<meshes::Violation>& problems)
       : loaded_(loaded), problems_(problems), rubber_(loaded.config.press.rubber) {}
 
   void resolve() {
@@ -81,7 +81,7 @@ class Elasticity {
   }
   void refuse(const char* key, const std::string& rule, const std::string& remedy) {
     const Entry& entry = loaded_.entries.at(key);
-    problems_.push_back({entry.place, key, unquoted(entry.literal), rule, remedy});
+    problems_.push_back({key, unquoted(entry.literal), rule, remedy, entry.place});
   }
   // A file of constants brings its own E and G, and what is given beside it has no effect.
   void note(const std::string& text) {
@@ -99,7 +99,7 @@ class Elasticity {
   void with_poissons_ratio();
 
   LoadedConfig& loaded_;
-  std::vector<Problem>& problems_;
+  std::vector<meshes::Violation>& problems_;
   meshes::Rubber& rubber_;
   const char* coefficients_ = nullptr;  ///< the key that G comes from, where a law tells it
   std::vector<std::string> given_;
@@ -254,7 +254,7 @@ void Elasticity::with_poissons_ratio() {
 
 }  // namespace
 
-void resolve_elasticity(LoadedConfig& loaded, std::vector<Problem>& problems) {
+void resolve_elasticity(LoadedConfig& loaded, std::vector<meshes::Violation>& problems) {
   Elasticity(loaded, problems).resolve();
 }
 

@@ -21,6 +21,6 @@ double youngs_modulus_of_hardness(double shore_a);
 /// defaults of E and G). Entries of what follows from others become "auto", so that the
 /// resolved configuration can be loaded again. Appends a problem where three are given, both E
 /// and hardness, a stiffness beside coefficients, or where a law misses its coefficients.
-void resolve_elasticity(LoadedConfig& loaded, std::vector<Problem>& problems);
+void resolve_elasticity(LoadedConfig& loaded, std::vector<meshes::Violation>& problems);
 
 }  // namespace fingertip::studies::inline config

@@ -1,10 +1,9 @@
-/// A checked Config that remembers where every value came from, and what is wrong with an input.
+/// A checked Config that remembers where every value came from.
 #pragma once
 
 #include <map>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,27 +13,8 @@
 
 namespace fingertip::studies::inline config {
 
-/// One thing that is wrong with the input, and where it was written.
-struct Problem {
-  std::string place;  ///< "file.toml:12", "--set rubber.density=1 m" or "default"
-  std::string key;    ///< configuration key; may be empty for a file that cannot be read
-  std::string value;  ///< as the user wrote it
-  std::string rule;
-  std::string remedy;
-};
-
-/// "place: key = value: rule; remedy"
-std::string to_string(const Problem& problem);
-
-/// The input is wrong; carries every problem found. Programs exit with 2.
-class ConfigError : public std::runtime_error {
- public:
-  explicit ConfigError(std::vector<Problem> problems);
-  const std::vector<Problem>& problems() const { return problems_; }
-
- private:
-  std::vector<Problem> problems_;
-};
+/// What is wrong with a configuration: all of it, with its places.
+using ConfigError = meshes::InvalidInput;
 
 /// Entry::place of a default.
 inline constexpr const char* default_place = "default";
@@ -54,9 +34,14 @@ struct LoadedConfig {
   std::shared_ptr<std::optional<calibration::Material>> material =
       std::make_shared<std::optional<calibration::Material>>();
 
-  /// Violations reported by a library as problems with their place and the user's own spelling.
+  /// Violations reported by a library with their place and the user's own spelling; those that have
+  /// a place keep it.
   ConfigError locate(const std::vector<meshes::Violation>& violations) const;
 };
+
+/// What is wrong with the file that `key` names.
+ConfigError refused_file(const LoadedConfig& loaded, const std::string& key,
+                         const meshes::InvalidInput& error);
 
 /// The one key that breaks a rule, with its place; `value` stands where the key is unknown.
 ConfigError refused(const LoadedConfig& loaded, const std::string& key, const std::string& value,

@@ -2,12 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include <toml++/toml.h>
 
 #include "calibration/files/toml_depth.h"
+#include "calibration/files/toml_file.h"
 #include "meshes/base/files.h"
 #include "studies/config/elasticity.h"
 #include "studies/config/finger_defaults.h"
@@ -55,11 +55,11 @@ class Reader {
                     const std::filesystem::path& file);
   void unknown(const std::string& place, const std::string& name, const std::string& value) {
     problems_.push_back(
-        {place, name, value, "unknown key", "the nearest valid key is " + nearest_key(name)});
+        {name, value, "unknown key", "the nearest valid key is " + nearest_key(name), place});
   }
 
   LoadedConfig loaded_;
-  std::vector<Problem> problems_;
+  std::vector<meshes::Violation> problems_;
 };
 
 void Reader::take(const Key& key, const toml::node& node, const std::string& place, bool given,
@@ -72,7 +72,7 @@ void Reader::take(const Key& key, const toml::node& node, const std::string& pla
     key.assign(loaded_.config, reading.value);
   } catch (const UnitError& error) {
     entry.literal = toml_literal(node);
-    problems_.push_back({place, name, unquoted(entry.literal), error.rule, error.remedy});
+    problems_.push_back({name, unquoted(entry.literal), error.rule, error.remedy, place});
   }
 }
 
@@ -87,8 +87,9 @@ void Reader::read_section(const std::string& section, const toml::node& node,
   if (!known || table == nullptr) {
     std::vector<std::string> names;
     for (const Section& candidate : sections()) names.push_back(candidate.name);
-    problems_.push_back({place(node), section, "", known ? "must be a section" : "unknown section",
-                         "the nearest valid section is [" + nearest_word(section, names) + "]"});
+    problems_.push_back({section, "", known ? "must be a section" : "unknown section",
+                         "the nearest valid section is [" + nearest_word(section, names) + "]",
+                         place(node)});
     return;
   }
   for (const auto& [name, value] : *table) {
@@ -102,31 +103,16 @@ void Reader::read_section(const std::string& section, const toml::node& node,
 }
 
 void Reader::read_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream content;
-  if (!std::filesystem::is_regular_file(file) || !in || !(content << in.rdbuf())) {
-    problems_.push_back({file.string(), "", "", "the configuration file cannot be read",
-                         "give the path of an existing, readable, non-empty TOML file (fingertip "
-                         "init writes one)"});
-    return;
-  }
-  if (calibration::nests_too_deep(content.str())) {
-    problems_.push_back({file.string(), "", "", "a key has hundreds of dotted parts",
-                         "compare with the template that fingertip init writes"});
-    return;
-  }
   try {
-    const toml::table root = toml::parse(content.str(), file.string());
+    const toml::table root =
+        calibration::parsed_toml(file, "compare with the template that fingertip init writes");
     for (const auto& [section, node] : root) {
       // [case] and [sweep] are read by those who know them.
       if (section.str() != "case" && section.str() != "sweep")
         read_section(std::string(section.str()), node, file);
     }
-  } catch (const toml::parse_error& error) {
-    problems_.push_back({file.string() + ":" + std::to_string(error.source().begin.line), "", "",
-                         "not valid TOML: " + std::string(error.description()),
-                         "correct the line, or compare with the template that fingertip init "
-                         "writes"});
+  } catch (const meshes::InvalidInput& error) {
+    std::ranges::copy(error.violations(), std::back_inserter(problems_));
   }
 }
 
@@ -135,8 +121,8 @@ void Reader::read_set(const std::string& text) {
   const auto equals = text.find('=');
   const std::string name(trimmed(std::string_view(text).substr(0, equals)));
   if (equals == text.npos) {
-    problems_.push_back({place, name, "", "must have the form section.key=value",
-                         "write e.g. --set press.depth=\"0.2 cm\""});
+    problems_.push_back({name, "", "must have the form section.key=value",
+                         "write e.g. --set press.depth=\"0.2 cm\"", place});
     return;
   }
   read_assignment(place, name, std::string(trimmed(std::string_view(text).substr(equals + 1))));
@@ -175,10 +161,11 @@ void Reader::resolve_shape() {
   const std::string key = profile ? "geometry.profile" : "geometry.file";
   const std::filesystem::path& file = profile ? config.profile : config.solid.file;
   if (file.empty()) {
-    problems_.push_back({loaded_.entries.at("geometry.shape").place, key, "none",
+    problems_.push_back({key, "none",
                          profile ? "a profile needs the file of its meridian"
                                  : "a solid needs the file of its surface",
-                         "write e.g. " + key + " = \"finger." + (profile ? "csv" : "stl") + '"'});
+                         "write e.g. " + key + " = \"finger." + (profile ? "csv" : "stl") + '"',
+                         loaded_.entries.at("geometry.shape").place});
     return;
   }
   try {
@@ -193,13 +180,12 @@ void Reader::resolve_shape() {
     for (const meshes::Violation& broken : error.violations()) {
       // Else a line of the file.
       const auto entry = loaded_.entries.find(broken.key);
-      std::string place = broken.key;
+      std::string place = broken.place.empty() ? broken.key : broken.place;
       if (entry != loaded_.entries.end())
         place =
             loaded_.entries.at(entry->second.given ? broken.key : key).place + ", " + file.string();
-      problems_.push_back({place, "", "",
-                           (broken.value.empty() ? "" : broken.value + ": ") + broken.rule,
-                           broken.remedy});
+      problems_.push_back({"", "", (broken.value.empty() ? "" : broken.value + ": ") + broken.rule,
+                           broken.remedy, place});
     }
   }
 }
@@ -208,7 +194,6 @@ void Reader::resolve_shape() {
 void Reader::resolve_card() {
   const Config& config = loaded_.config;
   if (config.card.empty()) return;
-  const Entry& entry = loaded_.entries.at("rubber.card");
   try {
     const calibration::LawCard card = calibration::read_law_card(config.card);
     for (const auto& [name, literal] : keys_of(card)) {
@@ -218,19 +203,16 @@ void Reader::resolve_card() {
       if (!known.given) {
         read_assignment(config.card.string(), name, literal);
       } else if (known.literal != toml_literal(*parsed_literal(literal).get("v"))) {
-        problems_.push_back({known.place, name, unquoted(known.literal),
+        problems_.push_back({name, unquoted(known.literal),
                              "the card " + config.card.filename().string() + " says " + literal,
-                             "leave one of the two out"});
+                             "leave one of the two out", known.place});
       }
     }
     for (const std::string& warning : card_warnings(card, loaded_))
       loaded_.notes.push_back(config.card.filename().string() + ": " + warning);
   } catch (const meshes::InvalidInput& error) {
-    for (const meshes::Violation& broken : error.violations())
-      problems_.push_back(
-          {entry.place, "rubber.card", unquoted(entry.literal),
-           broken.key + (broken.value.empty() ? "" : " = " + broken.value) + ": " + broken.rule,
-           broken.remedy});
+    const ConfigError refused = refused_file(loaded_, "rubber.card", error);
+    std::ranges::copy(refused.violations(), std::back_inserter(problems_));
   }
 }
 
@@ -241,9 +223,9 @@ void Reader::check_continuum_law() {
       config.press.rubber.energy == meshes::StrainEnergy())
     return;
   const Entry& entry = loaded_.entries.at("reference.law");
-  problems_.push_back({entry.place, "reference.law", unquoted(entry.literal),
+  problems_.push_back({"reference.law", unquoted(entry.literal),
                        "means a neo-Hookean rubber with volumetric = logarithmic",
-                       "leave it out and give rubber.law and rubber.volumetric"});
+                       "leave it out and give rubber.law and rubber.volumetric", entry.place});
 }
 
 LoadedConfig Reader::finish() {
@@ -274,9 +256,9 @@ LoadedConfig Reader::finish() {
     for (const auto& more : {press.geometry.violations(), protocol.violations(press.geometry)})
       broken.insert(broken.end(), more.begin(), more.end());
   const ConfigError located = loaded_.locate(broken);
-  for (const Problem& problem : located.problems()) {
+  for (const meshes::Violation& problem : located.violations()) {
     // A value that could not be read still holds its default: rules about it mean nothing.
-    const bool unread = std::ranges::any_of(problems_, [&](const Problem& earlier) {
+    const bool unread = std::ranges::any_of(problems_, [&](const meshes::Violation& earlier) {
       const Key* key = find_key(problem.key);
       return earlier.key == problem.key ||
              (key != nullptr && std::ranges::find(key->related, earlier.key) != key->related.end());

@@ -12,21 +12,21 @@ namespace fingertip::studies::inline config {
 namespace {
 
 /// A default gives way to the program's value, anything else must not contradict it.
-void take_from_program(LoadedConfig& loaded, std::vector<Problem>& problems, const char* name,
-                       const std::string& literal, const std::string& what) {
+void take_from_program(LoadedConfig& loaded, std::vector<meshes::Violation>& problems,
+                       const char* name, const std::string& literal, const std::string& what) {
   Entry& entry = loaded.entries.at(name);
   const bool usual = !entry.given || entry.literal == default_literal(*find_key(name));
   if (!usual)
-    problems.push_back({entry.place, name, unquoted(entry.literal),
+    problems.push_back({name, unquoted(entry.literal),
                         "press.program (" + loaded.entries.at("press.program").place +
                             ") says otherwise: " + what + " is " + unquoted(literal),
-                        "leave " + std::string(name) + " out"});
+                        "leave " + std::string(name) + " out", entry.place});
   entry.literal = literal;
   entry.place = "press.program";
 }
 
 /// Depth, speed and samples of a program.
-void resolve_program(LoadedConfig& loaded, std::vector<Problem>& problems) {
+void resolve_program(LoadedConfig& loaded, std::vector<meshes::Violation>& problems) {
   meshes::PressProtocol& protocol = loaded.config.press.protocol;
   const meshes::PressStage& first = protocol.program.front();
   double deepest = first.indentation;
@@ -49,15 +49,15 @@ void resolve_program(LoadedConfig& loaded, std::vector<Problem>& problems) {
     protocol.samples.push_back(deepest);
   } else {
     const Entry& entry = loaded.entries.at("press.samples");
-    problems.push_back({entry.place, "press.samples", unquoted(entry.literal),
+    problems.push_back({"press.samples", unquoted(entry.literal),
                         "some lie deeper than press.program goes",
-                        "leave them out, or let the program go deeper"});
+                        "leave them out, or let the program go deeper", entry.place});
   }
 }
 
 }  // namespace
 
-void resolve_depths(LoadedConfig& loaded, std::vector<Problem>& problems) {
+void resolve_depths(LoadedConfig& loaded, std::vector<meshes::Violation>& problems) {
   meshes::PressProtocol& protocol = loaded.config.press.protocol;
   if (!protocol.program.empty()) return resolve_program(loaded, problems);
   if (protocol.samples.empty()) {

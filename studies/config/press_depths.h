@@ -7,6 +7,6 @@ namespace fingertip::studies::inline config {
 
 /// Samples make the depth, or the depth samples; of a program both and the speed follow, and a
 /// default gives way to them. Appends a problem where what was given contradicts the program.
-void resolve_depths(LoadedConfig& loaded, std::vector<Problem>& problems);
+void resolve_depths(LoadedConfig& loaded, std::vector<meshes::Violation>& problems);
 
 }  // namespace fingertip::studies::inline config

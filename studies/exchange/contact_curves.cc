@@ -117,12 +117,12 @@ std::vector<ContactCurve> ContactCurves::read(const std::filesystem::path& folde
   return curves;
 }
 
-std::vector<Problem> lost_in_contact(const LoadedConfig& loaded) {
+std::vector<meshes::Violation> lost_in_contact(const LoadedConfig& loaded) {
   const lattice::PressSetup& press = loaded.config.press;
-  std::vector<Problem> lost;
+  std::vector<meshes::Violation> lost;
   const auto add = [&](const char* key, const char* rule, const char* remedy) {
     const Entry& entry = loaded.entries.at(key);
-    lost.push_back({entry.place, key, entry.literal, rule, remedy});
+    lost.push_back({key, entry.literal, rule, remedy, entry.place});
   };
   if (press.protocol.contact == meshes::ContactMode::stick)
     add("press.contact",

@@ -49,6 +49,6 @@ class ContactCurves {
 std::vector<meshes::Violation> not_straight(const meshes::PressProtocol& protocol);
 
 /// What is not handed over of this press, with what to do; the first word is the key.
-std::vector<Problem> lost_in_contact(const LoadedConfig& loaded);
+std::vector<meshes::Violation> lost_in_contact(const LoadedConfig& loaded);
 
 }  // namespace fingertip::studies::inline exchange

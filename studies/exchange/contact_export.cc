@@ -35,11 +35,11 @@ const std::map<std::string, Format>& formats() {
 }
 
 /// Of the configuration's obstacle; empty where the format can have it.
-std::vector<Problem> beyond(const Format& format, const LoadedConfig& loaded) {
+std::vector<meshes::Violation> beyond(const Format& format, const LoadedConfig& loaded) {
   const ObstacleShape shape = loaded.config.press.protocol.obstacle.shape;
   const Entry& entry = loaded.entries.at("obstacle.shape");
-  const auto refused = [&](const char* rule, const char* remedy) -> std::vector<Problem> {
-    return {{entry.place, "obstacle.shape", entry.literal, rule, remedy}};
+  const auto refused = [&](const char* rule, const char* remedy) -> std::vector<meshes::Violation> {
+    return {{"obstacle.shape", entry.literal, rule, remedy, entry.place}};
   };
   if (format.curves == ContactCurves::Of::body && shape != ObstacleShape::plane)
     return refused("the forces of a body of tetrahedra are foretold under a plane",
@@ -57,11 +57,11 @@ ContactExport all_of_them(const ContactSource& source) {
                               source.lost, source.curves, {});
   for (const auto& [name, format] : formats()) {
     ContactExport part;
-    std::vector<Problem> problems = beyond(format, source.loaded);
+    std::vector<meshes::Violation> problems = beyond(format, source.loaded);
     try {
       if (problems.empty()) part = format.make(source);
     } catch (const ConfigError& error) {
-      problems = error.problems();
+      problems = error.violations();
     }
     if (!problems.empty()) {
       made.said += name + ": " + problems.front().rule + "\n";
@@ -87,7 +87,7 @@ ContactExport contact_export(const std::string& format, const ContactSource& sou
 ContactCurves contact_curves(const std::string& format, const LoadedConfig& loaded) {
   if (format == "all") return ContactCurves(loaded);
   const Format& own = formats().at(format);
-  const std::vector<Problem> problems = beyond(own, loaded);
+  const std::vector<meshes::Violation> problems = beyond(own, loaded);
   if (!problems.empty()) throw ConfigError(problems);
   return ContactCurves(loaded, own.curves);
 }

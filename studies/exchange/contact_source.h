@@ -16,12 +16,12 @@ namespace fingertip::studies::inline exchange {
 class ContactSource {
  public:
   ContactSource(const LoadedConfig& own_loaded, const std::vector<ContactCurve>& own_curves,
-                const std::vector<Problem>& own_lost)
+                const std::vector<meshes::Violation>& own_lost)
       : loaded(own_loaded), curves(own_curves), lost(own_lost) {}
 
   const LoadedConfig& loaded;
   const std::vector<ContactCurve>& curves;  ///< the first one is fitted, all are judged
-  const std::vector<Problem>& lost;
+  const std::vector<meshes::Violation>& lost;
 
   /// The soft body of the first curve, fitted when it is asked for first. Throws as
   /// fitted_soft_body().

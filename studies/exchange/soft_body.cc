@@ -66,9 +66,9 @@ SoftBody fitted_soft_body(const LoadedConfig& loaded, const ContactCurve& curve)
       soft.body, {soft.poissons_ratio, vertex_stiffness * soft.edge}, curve.forces.indentation);
   soft.youngs_modulus = calibration::fitted_factor(soft.forces, curve.forces);
   if (!std::isfinite(soft.youngs_modulus))
-    throw ConfigError({{loaded.entries.at("exchange.edge").place, "exchange.edge",
-                        meshes::to_text(soft.edge) + " m", "tetrahedra of that size bear no press",
-                        "choose smaller ones"}});
+    throw ConfigError({"exchange.edge", meshes::to_text(soft.edge) + " m",
+                       "tetrahedra of that size bear no press", "choose smaller ones",
+                       loaded.entries.at("exchange.edge").place});
   soft.stiffness = vertex_stiffness * soft.edge * soft.youngs_modulus;
   for (double& force : soft.forces) force *= soft.youngs_modulus;
   return soft;

@@ -82,10 +82,11 @@ ForetoldModel lattice_at_rest() {
 }
 
 TransferFile transfer_of(const std::string& format, const std::string& how,
-                         const std::vector<Problem>& lost, const std::vector<ContactCurve>& curves,
+                         const std::vector<meshes::Violation>& lost,
+                         const std::vector<ContactCurve>& curves,
                          const std::vector<ForetoldModel>& models) {
   TransferFile file{format, how, {}, {}};
-  for (const Problem& problem : lost)
+  for (const meshes::Violation& problem : lost)
     file.lost.push_back(problem.key + " = " + problem.value + ": " + problem.rule);
   for (const ContactCurve& curve : curves) {
     TransferObstacleEntry& entry = file.obstacles.emplace_back();

@@ -25,7 +25,8 @@ ForetoldModel lattice_at_rest();
 
 /// Told are 1/6, 1/3, 1/2, 2/3 and all of the depth.
 TransferFile transfer_of(const std::string& format, const std::string& how,
-                         const std::vector<Problem>& lost, const std::vector<ContactCurve>& curves,
+                         const std::vector<meshes::Violation>& lost,
+                         const std::vector<ContactCurve>& curves,
                          const std::vector<ForetoldModel>& models);
 
 /// Chapters "Force error to expect" and "What is lost" of a README.

@@ -5,7 +5,6 @@
 #include "lattice/control/controller.h"
 #include "meshes/base/cannot_write.h"
 #include "meshes/base/errors.h"
-#include "studies/config/loaded_config.h"
 #include "studies/jobs/job.h"
 
 namespace fingertip::studies::inline jobs {
@@ -25,7 +24,7 @@ Ending ending_of(const std::exception& error) {
   if (is<lattice::ControllerFailed>(error)) return {"controller failed", 3};
   if (is<meshes::NotConverged>(error)) return {"not converged", 3};
   if (is<meshes::Interrupted>(error)) return {"interrupted", 130};
-  if (is<meshes::InvalidInput>(error) || is<ConfigError>(error)) return {"bad input", 2};
+  if (is<meshes::InvalidInput>(error)) return {"bad input", 2};
   if (is<meshes::CannotWrite>(error) || is<std::filesystem::filesystem_error>(error))
     return {"could not write", 3};
   return {"failed", 1};

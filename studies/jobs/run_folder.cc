@@ -30,7 +30,7 @@ constexpr const char* manifest_name = "manifest.json";
 constexpr const char* replaced_name = ".replaced";
 
 ConfigError refusal(const fs::path& out, const std::string& rule, const std::string& remedy) {
-  return ConfigError({{"--out " + out.string(), "", "", rule, remedy}});
+  return ConfigError({"", "", rule, remedy, "--out " + out.string()});
 }
 
 /// Makes the folder; false when it is there already. Of several processes one makes it.
@@ -147,7 +147,7 @@ RunFolder::RunFolder(const RunFolderOptions& options, const LoadedConfig& loaded
     meshes::write_atomically(path_ / "parameters.toml",
                              [&](std::ostream& out) { out << parameters; });
     log_ = std::make_unique<Log>(path_ / "log.txt");
-  } catch (const ConfigError&) {
+  } catch (const meshes::InvalidInput&) {
     throw;
   } catch (const std::exception& error) {
     std::error_code ignored;

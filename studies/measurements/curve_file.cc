@@ -27,7 +27,7 @@ class CurveReader {
         allowed_(allowed),
         columns_(source, allowed, problems_),
         wants_time_(in_time),
-        text_(text_of(source.path, problems_)) {}
+        file_(text_of(source.path)) {}
   std::vector<MeasuredFile> read();
 
  private:
@@ -49,7 +49,7 @@ class CurveReader {
   const std::vector<CurveQuantities>& allowed_;
   CurveColumns columns_;
   bool wants_time_ = false;
-  std::string text_;
+  FileText file_;
   std::vector<MeasuredSetting> settings_;
   const TextTable* table_ = nullptr;  ///< at hand
   CurveQuantities quantities_;
@@ -119,7 +119,7 @@ void CurveReader::note_unused() {
 std::optional<double> CurveReader::read_cell(const CurveColumn& column, std::size_t row) {
   constexpr double largest = 1e60;
   const string_view cell = table_->rows[row][column.index];
-  const auto value = number_in(cell);
+  const auto value = table_->number(row, column.index);
   if (value && std::isfinite(*value)) {
     const double si = column.si(*value);
     const double size = std::abs(si);
@@ -137,7 +137,7 @@ bool CurveReader::read_sigma(CurveRow& row, std::size_t place) {
   row.sigma = source_.sigma;
   if (!sigma_) return true;
   const string_view cell = table_->rows[place][sigma_->index];
-  if (own_error_ && (cell.empty() || number_in(cell) == 0.0)) {
+  if (own_error_ && (cell.empty() || table_->number(place, sigma_->index) == 0.0)) {
     ++without_error_;
     return true;
   }
@@ -293,9 +293,9 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
 }
 
 std::vector<MeasuredFile> CurveReader::read() {
-  TextTables found = columns_.tables(text_);
+  TextTables found = columns_.tables(file_.text);
   for (const Line& comment : found.comments) read_setting(comment);
-  if (found.tables.empty() && source_.columns.empty()) columns_.refuse_header(text_);
+  if (found.tables.empty() && source_.columns.empty()) columns_.refuse_header(file_.text);
   problems_.throw_if_any();
   const std::size_t count = found.tables.size();
   if (source_.block > count)
@@ -308,6 +308,7 @@ std::vector<MeasuredFile> CurveReader::read() {
     if (source_.block > 0 && source_.block != i + 1) continue;
     MeasuredFile file = read_table(found.tables[i]);
     file.settings = settings_;
+    file.sha256 = file_.sha256;
     if (files.empty())
       file.notes.insert(file.notes.begin(), found.notes.begin(), found.notes.end());
     file.curve.name = count > 1 ? fmt::format("{}, test {}", name, i + 1) : name;

@@ -30,6 +30,7 @@ struct MeasuredFile {
   std::vector<std::size_t> rows;  ///< the same as `rows` counts them, from 1 in the table
   std::vector<MeasuredSetting> settings;  ///< in the order of the file, each key once
   std::vector<std::string> notes;         ///< what was ignored, left out or averaged
+  std::string sha256;                     ///< of the file
 };
 
 /// Reads the tables of a file, in general one, in UTF-8, UTF-16 or Latin-1 (text_table.h): a header
@@ -52,7 +53,7 @@ struct MeasuredFile {
 ///   back by a bin's width and single rows by two: that is noise, and more is unloading.
 /// - Forces are positive in compression: their sum must be, single ones may be negative (a note
 ///   tells how many).
-/// Throws ConfigError with up to ten problems of the file, each with its line, its column and what
+/// Throws InvalidInput with up to ten problems of the file, each with its line, its column and what
 /// to do: unreadable or empty file, another encoding, no header, missing or wrong units, cells
 /// that are no finite numbers or absurdly large or small (beyond 1e-60 ... 1e60 SI), rows of
 /// another length, sigma <= 0, equal or decreasing x, a setting given twice.

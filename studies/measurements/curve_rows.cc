@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace fingertip::studies::inline measurements {
 
@@ -58,41 +59,30 @@ struct Bin {
   }
 };
 
-/// `sigma` of a row of weight 1; 0: unknown.
-calibration::Curve curve_of(const std::vector<Bin>& bins, double sigma, bool with_time) {
-  calibration::Curve curve;
-  for (const Bin& bin : bins) {
-    curve.x.push_back(bin.x0 + bin.x / bin.weight);
-    curve.y.push_back(bin.y0 + bin.y / bin.weight);
-    if (sigma > 0.0) curve.sigma.push_back(sigma / std::sqrt(bin.weight));
-    if (with_time) curve.time.push_back(bin.time / bin.weight);
-  }
-  return curve;
-}
-
 bool has_time(const std::vector<CurveRow>& rows) {
   return std::ranges::any_of(rows, [](const CurveRow& row) { return row.time != 0.0; });
 }
 
-calibration::Curve means(const std::vector<CurveRow>& rows, double first, double width,
-                         std::vector<std::string>& notes, const std::string& name) {
+/// Means of the rows of equal `bin`, weighed by their sigma, and the bins that have rows.
+std::pair<calibration::Curve, std::vector<Bin>> means(const std::vector<CurveRow>& rows,
+                                                      const std::vector<std::size_t>& bin,
+                                                      bool with_time) {
   const bool known = rows.front().sigma > 0.0;
   const double least = std::ranges::min(rows, {}, &CurveRow::sigma).sigma;
-  std::vector<Bin> bins(most_rows);
-  for (const CurveRow& row : rows) {
-    const auto bin = std::size_t((row.x - first) / width);
-    const double ratio = known ? least / row.sigma : 1.0;  // at most 1: no overflow
-    bins[std::min(bin, most_rows - 1)].add(row, ratio * ratio);
+  std::vector<Bin> bins(std::ranges::max(bin) + 1);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double ratio = known ? least / rows[i].sigma : 1.0;  // at most 1: no overflow
+    bins[bin[i]].add(rows[i], ratio * ratio);
   }
-  std::erase_if(bins, [](const Bin& bin) { return bin.rows == 0; });
-  const calibration::Curve curve = curve_of(bins, known ? least : 0.0, has_time(rows));
-  const auto [fewest, most] = std::ranges::minmax_element(bins, {}, &Bin::rows);
-  notes.push_back(
-      fmt::format("{} rows are averaged in {} bins of equal {}, {} to {} rows each; {}",
-                  rows.size(), bins.size(), name, fewest->rows, most->rows,
-                  known ? "sigma of a mean supposes that the errors of its rows are independent"
-                        : "without a column sigma every mean counts alike"));
-  return curve;
+  std::erase_if(bins, [](const Bin& each) { return each.rows == 0; });
+  calibration::Curve curve;
+  for (const Bin& each : bins) {
+    curve.x.push_back(each.x0 + each.x / each.weight);
+    curve.y.push_back(each.y0 + each.y / each.weight);
+    if (known) curve.sigma.push_back(least / std::sqrt(each.weight));
+    if (with_time) curve.time.push_back(each.time / each.weight);
+  }
+  return {curve, bins};
 }
 
 /// Whether the means of some thousand blocks of successive rows step back by at most `width`, and
@@ -133,7 +123,18 @@ calibration::Curve averaged(const std::vector<CurveRow>& rows, const Abscissa& a
     return {};
   }
   if (!climbs(rows, width, abscissa, problems)) return {};
-  return means(rows, least->x, width, notes, abscissa.name);
+  std::vector<std::size_t> bin;
+  for (const CurveRow& row : rows)
+    bin.push_back(std::min(std::size_t((row.x - least->x) / width), most_rows - 1));
+  const auto [curve, bins] = means(rows, bin, has_time(rows));
+  const auto [fewest, most] = std::ranges::minmax_element(bins, {}, &Bin::rows);
+  notes.push_back(
+      fmt::format("{} rows are averaged in {} bins of equal {}, {} to {} rows each; {}",
+                  rows.size(), bins.size(), abscissa.name, fewest->rows, most->rows,
+                  rows.front().sigma > 0.0
+                      ? "sigma of a mean supposes that the errors of its rows are independent"
+                      : "without a column sigma every mean counts alike"));
+  return curve;
 }
 
 }  // namespace
@@ -234,22 +235,15 @@ TimedCurve curve_in_time(const std::vector<CurveRow>& rows, const Abscissa& absc
     bin[i] = bin[i - 1] + (next ? 1 : 0);
     place = here;
   }
-  const bool known = rows.front().sigma > 0.0;
-  const double sigma = std::ranges::min(rows, {}, &CurveRow::sigma).sigma;
-  std::vector<Bin> bins(bin.back() + 1);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double ratio = known ? sigma / rows[i].sigma : 1.0;
-    bins[bin[i]].add(rows[i], ratio * ratio);
-  }
-  std::erase_if(bins, [](const Bin& each) { return each.rows == 0; });
-  result.curve = curve_of(bins, known ? sigma : 0.0, true);
+  const auto [curve, bins] = means(rows, bin, true);
+  result.curve = curve;
   result.curve.in_time = true;
   for (const Bin& each : bins) result.lines.push_back(each.line);
   if (bins.size() < rows.size())
     notes.push_back(fmt::format(
         "{} rows are averaged in {} bins, of equal {} on the way, of growing time in holds{}",
         rows.size(), bins.size(), abscissa.name,
-        known ? "" : "; without a column sigma every mean counts alike"));
+        rows.front().sigma > 0.0 ? "" : "; without a column sigma every mean counts alike"));
   return result;
 }
 

@@ -10,13 +10,7 @@
 
 namespace fingertip::studies::inline measurements {
 
-/// One row, SI.
-struct CurveRow {
-  double x = 0.0, y = 0.0, sigma = 0.0;  ///< sigma 0: unknown, then in every row
-  std::size_t line = 0;
-  double time = 0.0;  ///< 0 in every row where unknown
-  int hold = 0;       ///< in which hold it was taken, from 1; 0: on the way
-};
+using calibration::CurveRow;
 
 /// How x is called and shown to the user.
 struct Abscissa {

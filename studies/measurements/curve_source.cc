@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "calibration/files/toml_file.h"
 #include "studies/config/text/units.h"
 #include "studies/measurements/material_test_table.h"
 
@@ -73,7 +74,7 @@ void add_press(const TestTable& press, std::vector<CurveSource>& sources) {
 
 std::vector<CurveSource> curve_sources(const fs::path& entry) {
   if (entry.extension() != ".toml") return {{entry, entry.stem().string()}};
-  const toml::table root = parsed_description(entry);
+  const toml::table root = calibration::parsed_toml(entry, "mend the file");
   const TestTable whole(entry, root, "");
   whole.check_keys({"data", "press"});
   std::vector<CurveSource> sources;

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
-#include <fstream>
 #include <utility>
+
+#include "meshes/base/text_file.h"
+#include "studies/jobs/digest.h"
 
 namespace fingertip::studies::inline measurements {
 
@@ -27,17 +28,16 @@ void FileProblems::add(std::size_t line, const std::string& column, const std::s
     return;
   }
   const std::string place = file_.string() + (line > 0 ? ":" + std::to_string(line) : "");
-  problems_.push_back({place, column, value, rule, remedy});
+  problems_.push_back({column, value, rule, remedy, place});
 }
 
 void FileProblems::throw_if_any() const {
   if (problems_.empty()) return;
-  std::vector<Problem> problems = problems_;
+  std::vector<meshes::Violation> problems = problems_;
   if (further_ > 0)
-    problems.push_back({file_.string(), "", "",
-                        fmt::format("{} further problems are not shown", further_),
-                        "correct these first"});
-  throw ConfigError(std::move(problems));
+    problems.push_back({"", "", fmt::format("{} further problems are not shown", further_),
+                        "correct these first", file_.string()});
+  throw meshes::InvalidInput(std::move(problems));
 }
 
 std::string shown(string_view text) {
@@ -50,60 +50,8 @@ std::string shown(string_view text) {
 
 namespace {
 
-void append_utf8(std::string& text, std::uint32_t code) {
-  const auto put = [&](std::uint32_t byte) { text += char(static_cast<unsigned char>(byte)); };
-  const auto tail = [&](unsigned shift) { put(0x80 | ((code >> shift) & 0x3F)); };
-  if (code < 0x80) {
-    put(code);
-  } else if (code < 0x800) {
-    put(0xC0 | (code >> 6)), tail(0);
-  } else if (code < 0x10000) {
-    put(0xE0 | (code >> 12)), tail(6), tail(0);
-  } else {
-    put(0xF0 | (code >> 18)), tail(12), tail(6), tail(0);
-  }
-}
-
-/// None for half a character, and for a zero one.
-std::optional<std::string> from_utf16(string_view bytes, bool little) {
-  if (bytes.size() % 2 != 0) return {};
-  std::string text;
-  std::uint32_t high = 0;
-  for (std::size_t i = 0; i < bytes.size(); i += 2) {
-    const auto low_byte = static_cast<unsigned char>(bytes[i + (little ? 0 : 1)]),
-               high_byte = static_cast<unsigned char>(bytes[i + (little ? 1 : 0)]);
-    const std::uint32_t unit = low_byte | std::uint32_t(high_byte) << 8;
-    const bool first = unit >= 0xD800 && unit < 0xDC00, second = unit >= 0xDC00 && unit < 0xE000;
-    if (unit == 0 || second != (high != 0)) return {};
-    if (first) {
-      high = unit;
-    } else {
-      append_utf8(text, second ? 0x10000 + ((high - 0xD800) << 10) + (unit - 0xDC00) : unit);
-      high = 0;
-    }
-  }
-  if (high != 0) return {};
-  return text;
-}
-
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
-}
-
-bool is_utf8(string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i++]);
-    const int tails = lead < 0x80   ? 0
-                      : lead < 0xC2 ? -1
-                      : lead < 0xE0 ? 1
-                      : lead < 0xF0 ? 2
-                      : lead < 0xF5 ? 3
-                                    : -1;
-    if (tails < 0) return false;
-    for (int k = 0; k < tails; ++k, ++i)
-      if (i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
-  }
-  return true;
 }
 
 /// Chinese characters of GB 2312 and its supersets stand in pairs of high bytes; two umlauts side
@@ -121,9 +69,9 @@ bool is_chinese(string_view bytes) {
   return run % 2 == 0 && characters + run / 2 >= 2;
 }
 
-/// None where the system does not know the encoding, or the text breaks its rules.
-std::optional<std::string> from_chinese(string_view bytes) {
-  const iconv_t converter = iconv_open("UTF-8", "GB18030");
+/// None where the text breaks the rules of its encoding.
+std::optional<std::string> converted(string_view bytes, const char* encoding) {
+  const iconv_t converter = iconv_open("UTF-8", encoding);
   if (converter == iconv_t(-1)) return {};
   std::string in(bytes), out(2 * bytes.size(), '\0');
   char *from = in.data(), *to = out.data();
@@ -135,43 +83,32 @@ std::optional<std::string> from_chinese(string_view bytes) {
   return out;
 }
 
-/// Machines write UTF-16 with a byte order mark, GB 18030 in China, and Latin-1 for the micro sign
-/// and umlauts.
+}  // namespace
+
 std::optional<std::string> in_utf8(string_view bytes) {
-  if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes.substr(2), true);
-  if (bytes.starts_with("\xFE\xFF")) return from_utf16(bytes.substr(2), false);
-  if (bytes.find('\0') != bytes.npos) return {};
-  if (is_utf8(bytes)) return std::string(bytes);
-  if (is_chinese(bytes))
-    if (auto text = from_chinese(bytes)) return text;
-  std::string text;
-  for (const char c : bytes) append_utf8(text, static_cast<unsigned char>(c));
+  std::optional<std::string> text;
+  if (bytes.starts_with("\xFF\xFE"))
+    text = converted(bytes.substr(2), "UTF-16LE");
+  else if (bytes.starts_with("\xFE\xFF"))
+    text = converted(bytes.substr(2), "UTF-16BE");
+  else if (bytes.starts_with("\xEF\xBB\xBF"))
+    return in_utf8(bytes.substr(3));
+  else if (text = converted(bytes, "UTF-8"); !text) {
+    if (is_chinese(bytes)) text = converted(bytes, "GB18030");
+    // Of machines that write the micro sign and umlauts.
+    if (!text) text = converted(bytes, "ISO-8859-1");
+  }
+  if (text && text->find('\0') != text->npos) return {};
   return text;
 }
 
-}  // namespace
-
-std::string text_of(const fs::path& file, FileProblems& problems) {
-  std::string text;
-  std::error_code none;
-  std::ifstream in(file, std::ios::binary);
-  if (!fs::is_regular_file(file, none) || !in) {
-    problems.add(0, "", "",
-                 fs::is_directory(file, none) ? "is a folder" : "the file cannot be read",
-                 "give the path of an existing, readable CSV file");
-  } else {
-    text.resize(fs::file_size(file));
-    in.read(text.data(), std::streamsize(text.size()));
-    text.resize(std::size_t(in.gcount()));
-    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-    if (auto decoded = in_utf8(text))
-      text = std::move(*decoded);
-    else
-      problems.add(0, "", "", "is no plain text in UTF-8, UTF-16 or Latin-1",
-                   "save it as CSV in UTF-8");
-  }
-  problems.throw_if_any();
-  return text;
+FileText text_of(const fs::path& file) {
+  const std::string bytes = meshes::read_text(file);
+  std::optional<std::string> text = in_utf8(bytes);
+  if (!text)
+    throw meshes::InvalidInput({"", "", "is no plain text in UTF-8, UTF-16 or Latin-1",
+                                "save it as CSV in UTF-8", file.string()});
+  return {std::move(*text), sha256(bytes)};
 }
 
 std::optional<Line> Lines::next() {
@@ -218,7 +155,7 @@ std::optional<double> number_in(string_view cell) {
   return value;
 }
 
-std::optional<std::string> plain_number(string_view cell, NumberStyle style) {
+std::optional<double> number_in(string_view cell, NumberStyle style) {
   constexpr string_view minus = "\xE2\x88\x92";
   constexpr string_view blanks[] = {"\xC2\xA0", "\xE2\x80\xAF"};
   std::string text;
@@ -253,8 +190,7 @@ std::optional<std::string> plain_number(string_view cell, NumberStyle style) {
     }
   }
   if (whole && groups > 0 && since != 3) return {};
-  if (!number_in(result)) return {};
-  return result;
+  return number_in(result);
 }
 
 }  // namespace fingertip::studies::inline measurements

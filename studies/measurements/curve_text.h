@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "studies/config/loader.h"
+#include "meshes/base/errors.h"
 #include "studies/config/text/trimmed.h"
 
 namespace fingertip::studies::inline measurements {
@@ -22,23 +22,29 @@ class FileProblems {
   /// `line` from 1, 0 for the file as a whole; `column` a title; `value` as it was written.
   void add(std::size_t line, const std::string& column, const std::string& value,
            const std::string& rule, const std::string& remedy);
-  /// Throws ConfigError if there are any.
+  /// Throws InvalidInput if there are any.
   void throw_if_any() const;
 
  private:
   std::filesystem::path file_;
-  std::vector<Problem> problems_;
+  std::vector<meshes::Violation> problems_;
   std::size_t further_ = 0;
 };
 
 /// What a message may show of a file's text: printable and at most 40 characters.
 std::string shown(std::string_view text);
 
-/// A file's text in UTF-8 without byte order mark: UTF-16 with one, GB 18030 where all that is no
-/// ASCII are pairs of its bytes, and Latin-1, which is what else is no UTF-8, are converted. Throws
-/// ConfigError, by `problems`, for what is no readable file and for text with zero characters or
-/// halves of them.
-std::string text_of(const std::filesystem::path& file, FileProblems& problems);
+/// `bytes` in UTF-8 without byte order mark: UTF-16 with one, GB 18030 where all that is no ASCII
+/// are pairs of its bytes, and Latin-1, which is what else is no UTF-8, are converted; none for
+/// text with zero characters or halves of them.
+std::optional<std::string> in_utf8(std::string_view bytes);
+
+struct FileText {
+  std::string text;    ///< in UTF-8
+  std::string sha256;  ///< of the file's bytes
+};
+/// Throws InvalidInput for what is no readable file and no text.
+FileText text_of(const std::filesystem::path& file);
 
 struct Line {
   std::string_view text;
@@ -73,7 +79,7 @@ struct NumberStyle {
 inline constexpr std::array<NumberStyle, 7> number_styles = {
     {{'.', 0}, {',', 0}, {'.', ','}, {',', '.'}, {'.', ' '}, {',', ' '}, {'.', '\''}}};
 
-/// "1.234,5" as "1234.5"; none for what is no number in this style.
-std::optional<std::string> plain_number(std::string_view cell, NumberStyle style);
+/// "1.234,5" is 1234.5; none for what is no number in this style.
+std::optional<double> number_in(std::string_view cell, NumberStyle style);
 
 }  // namespace fingertip::studies::inline measurements

@@ -9,12 +9,11 @@
 #include <set>
 #include <utility>
 
+#include "calibration/files/toml_file.h"
+#include "calibration/material_tests/law_model.h"
 #include "calibration/material_tests/strain_grid.h"
 #include "meshes/base/errors.h"
-#include "meshes/base/text_file.h"
-#include "meshes/tables/csv_table.h"
 #include "studies/files/json_entry.h"
-#include "studies/jobs/digest.h"
 #include "studies/measurements/material_test_table.h"
 #include "studies/measurements/timed_test.h"
 
@@ -23,6 +22,7 @@ namespace fingertip::studies::inline measurements {
 namespace {
 
 namespace fs = std::filesystem;
+using calibration::CurveRow;
 using calibration::MaterialTest;
 using calibration::TestCourse;
 using calibration::TestKind;
@@ -50,13 +50,12 @@ class TestReader {
  private:
   void read_kind();
   void read_sizes();
-  meshes::CsvTable table_of(const fs::path& path) const;
-  /// What `rows` chooses of so many, from the first up to, without, the last.
-  std::array<std::size_t, 2> chosen_rows(const fs::path& path, std::size_t rows) const;
+  /// Of the file, those that `rows` chooses.
+  std::vector<CurveRow> rows_of(const fs::path& path);
   void read_slow(const std::vector<fs::path>& paths);
   void read_in_time(const fs::path& path);
   calibration::StrainCurve curve_of(const fs::path& path);
-  void convert(const calibration::StrainCurve& curve);
+  void convert(calibration::StrainCurve curve);
   void keep_known_compression();
   void read_published();
 
@@ -124,34 +123,28 @@ void TestReader::read_sizes() {
   plates_ = Plates{*diameter, *height};
 }
 
-meshes::CsvTable TestReader::table_of(const fs::path& path) const {
-  std::vector<std::string> wanted{stress_.column};
-  if (!strain_.value) wanted.push_back(strain_.column);
-  if (sigma_) wanted.push_back(sigma_->column);
-  if (found_.course != TestCourse::slow) wanted.push_back(test_.table("time")->column());
-  return described_table(path, layout_of(test_), wanted, result_.notes);
-}
-
-std::array<std::size_t, 2> TestReader::chosen_rows(const fs::path& path, std::size_t rows) const {
+std::vector<CurveRow> TestReader::rows_of(const fs::path& path) {
+  const FileText text = text_of(path);
+  found_.source += (found_.source.empty() ? "" : ", ") + path.filename().string() + " (SHA-256 " +
+                   text.sha256 + ")";
+  TestColumns columns{strain_.column, stress_.column, sigma_ ? sigma_->column : "", {}};
+  if (found_.course != TestCourse::slow) columns.time = test_.table("time")->column();
+  std::vector<CurveRow> rows = described_rows(text, path, layout_of(test_), columns, result_.notes);
   const auto chosen = test_.pair("rows");
-  if (!chosen) return {0, rows};
-  if (!((*chosen)[0] >= 1.0 && (*chosen)[1] <= double(rows)))
-    test_.refuse("rows", fmt::format("{} to {}", (*chosen)[0], (*chosen)[1]),
-                 fmt::format("{} has {} rows of data", path.filename().string(), rows),
+  if (!chosen) return rows;
+  const auto [first, last] = *chosen;
+  if (!(first >= 1.0 && last <= double(rows.size())))
+    test_.refuse("rows", fmt::format("{} to {}", first, last),
+                 fmt::format("{} has {} rows of data", path.filename().string(), rows.size()),
                  "count them from 1, without the header");
-  return {std::size_t((*chosen)[0]) - 1, std::size_t((*chosen)[1])};
+  return {rows.begin() + std::ptrdiff_t(first) - 1, rows.begin() + std::ptrdiff_t(last)};
 }
 
 calibration::StrainCurve TestReader::curve_of(const fs::path& path) {
-  const meshes::CsvTable table = table_of(path);
-  calibration::StrainCurve curve{
-      column_numbers(table, strain_.column), column_numbers(table, stress_.column), {}};
-  if (sigma_) curve.sigma = column_numbers(table, sigma_->column);
-  const auto [first, end] = chosen_rows(path, curve.strain.size());
-  curve.keep(first, end);
-  const std::size_t all = curve.strain.size();
+  calibration::StrainCurve curve = rows_of(path);
+  const std::size_t all = curve.size();
   const calibration::CurveCleaning removed = clean(curve, test_.pair("range"));
-  if (curve.strain.size() < 2)
+  if (curve.size() < 2)
     test_.refuse("path", path.filename().string(), "fewer than two points are left",
                  "look at rows, range and the columns");
   if (double(removed.backward) > noise_share * double(all))
@@ -167,23 +160,16 @@ calibration::StrainCurve TestReader::curve_of(const fs::path& path) {
 }
 
 /// To stretch, shear or J, increasing.
-void TestReader::convert(const calibration::StrainCurve& curve) {
-  struct Point {
-    double deformation, stress, sigma;
-  };
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < curve.strain.size(); ++i)
-    points.push_back({strain_.deformation(found_.kind, curve.strain[i]),
-                      stress_.factor * curve.stress[i],
-                      sigma_ ? std::abs(sigma_->factor) * curve.sigma[i] : 0.0});
+void TestReader::convert(calibration::StrainCurve curve) {
+  for (CurveRow& row : curve) row.x = strain_.deformation(found_.kind, row.x);
   if (found_.kind == TestKind::simple_shear)
-    std::erase_if(points, [](const Point& point) { return point.deformation <= 0.0; });
-  std::ranges::stable_sort(points, {}, &Point::deformation);
-  for (const Point& point : points) {
-    if (!found_.deformation.empty() && point.deformation == found_.deformation.back()) continue;
-    found_.deformation.push_back(point.deformation);
-    found_.stress.push_back(point.stress);
-    if (sigma_) found_.sigma.push_back(point.sigma);
+    std::erase_if(curve, [](const CurveRow& row) { return row.x <= 0.0; });
+  std::ranges::stable_sort(curve, {}, &CurveRow::x);
+  for (const CurveRow& row : curve) {
+    if (!found_.deformation.empty() && row.x == found_.deformation.back()) continue;
+    found_.deformation.push_back(row.x);
+    found_.stress.push_back(stress_.factor * row.y);
+    if (sigma_) found_.sigma.push_back(std::abs(sigma_->factor) * row.sigma);
   }
 }
 
@@ -207,17 +193,8 @@ void TestReader::read_in_time(const fs::path& path) {
   if (time.has("from") && !strain_.value)
     time.refuse("from", time.text("from").value_or(""), "the strain's column tells when it is held",
                 "leave it out");
-  const meshes::CsvTable table = table_of(path);
-  TimedRows rows;
-  rows.time = column_numbers(table, time.column());
-  if (!strain_.value) rows.strain = column_numbers(table, strain_.column);
-  rows.stress = column_numbers(table, stress_.column);
-  if (sigma_) rows.sigma = column_numbers(table, sigma_->column);
-  rows.lines = table.lines;
-  const auto [first, end] = chosen_rows(path, rows.time.size());
-  rows.keep(first, end);
   const long usual = found_.course == TestCourse::relaxation ? usual_points : most_points;
-  put_in_time(test_, path, strain_, stress_, std::move(rows),
+  put_in_time(test_, path, strain_, stress_, sigma_.has_value(), rows_of(path),
               std::size_t(test_.whole("points", usual, 2, most_points)), found_, result_.notes);
 }
 
@@ -258,9 +235,6 @@ void TestReader::read() {
     sigma_ = stress_;
     sigma_->column = table->column();
   }
-  for (const fs::path& path : paths)
-    found_.source += (found_.source.empty() ? "" : ", ") + path.filename().string() + " (SHA-256 " +
-                     sha256(meshes::read_text(path)) + ")";
   if (found_.course == TestCourse::slow)
     read_slow(paths);
   else if (paths.size() == 1)
@@ -285,8 +259,8 @@ void TestReader::read() {
 void TestReader::read_slow(const std::vector<fs::path>& paths) {
   std::vector<calibration::StrainCurve> curves;
   for (const fs::path& path : paths) curves.push_back(curve_of(path));
-  const bool many = curves.size() > 1 || test_.has("points") ||
-                    curves.front().strain.size() > std::size_t(usual_points);
+  const bool many =
+      curves.size() > 1 || test_.has("points") || curves.front().size() > std::size_t(usual_points);
   const long points = test_.whole("points", usual_points, 2, most_points);
   if (many && sigma_)
     test_.refuse("sigma", sigma_->column, "a curve that is averaged has no sigma of its own",
@@ -319,7 +293,7 @@ void note_rates(MaterialTestFile& file) {
 }  // namespace
 
 MaterialTestFile read_material_tests(const fs::path& file) {
-  const toml::table root = parsed_description(file);
+  const toml::table root = calibration::parsed_toml(file, "mend the file");
   MaterialTestFile result;
   const TestTable whole(file, root, "");
   whole.check_keys({"about", "data", "test"});

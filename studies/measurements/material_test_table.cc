@@ -7,9 +7,8 @@
 #include <cstdlib>
 #include <functional>
 
-#include "calibration/files/toml_depth.h"
 #include "meshes/base/errors.h"
-#include "meshes/base/text_file.h"
+#include "meshes/tables/csv_table.h"
 #include "studies/config/text/units.h"
 #include "studies/config/value_reader.h"
 
@@ -25,9 +24,8 @@ void TestTable::refuse(string_view key, const std::string& value, const std::str
                        const std::string& remedy) const {
   const toml::node* at = find(key);
   const auto line = (at != nullptr ? at->source() : own_.source()).begin.line;
-  throw InvalidInput({fmt::format("{}:{}: {}{}{}", file_.string(), line, place_,
-                                  place_.empty() || key.empty() ? "" : ".", key),
-                      value, rule, remedy});
+  throw InvalidInput({fmt::format("{}{}{}", place_, place_.empty() || key.empty() ? "" : ".", key),
+                      value, rule, remedy, fmt::format("{}:{}", file_.string(), line)});
 }
 
 void TestTable::check_keys(const std::set<string_view>& known) const {
@@ -203,18 +201,6 @@ TableLayout layout_of(const TestTable& table) {
   return layout;
 }
 
-toml::table parsed_description(const fs::path& file) {
-  const std::string text = meshes::read_text(file);
-  if (calibration::nests_too_deep(text))
-    throw InvalidInput({file.string(), "", "a key has hundreds of dotted parts", "mend the file"});
-  try {
-    return toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    throw InvalidInput({fmt::format("{}:{}", file.string(), error.source().begin.line), "",
-                        "not valid TOML: " + std::string(error.description()), "mend the line"});
-  }
-}
-
 TestTable needed(const TestTable& test, string_view key, const char* example) {
   const auto table = test.table(key);
   if (!table) test.refuse(key, "", "a test needs it", std::string("write e.g. ") + example);
@@ -302,53 +288,45 @@ StressColumn stress_column(const TestTable& test, std::optional<double> area) {
   return result;
 }
 
-meshes::CsvTable described_table(const fs::path& file, TableLayout layout,
-                                 const std::vector<std::string>& columns,
-                                 std::vector<std::string>& notes) {
-  FileProblems problems(file);
-  DescribedColumns choose(columns);
+std::vector<calibration::CurveRow> described_rows(const FileText& text, const fs::path& file,
+                                                  TableLayout layout, const TestColumns& columns,
+                                                  std::vector<std::string>& notes) {
+  using calibration::CurveRow;
+  constexpr const char* remedy = "compare the file with its [data] table";
+  std::vector<std::string> names;
+  std::vector<double CurveRow::*> members;
+  for (const auto& [name, member] : {std::pair(columns.stress, &CurveRow::y),
+                                     {columns.strain, &CurveRow::x},
+                                     {columns.sigma, &CurveRow::sigma},
+                                     {columns.time, &CurveRow::time}})
+    if (!name.empty()) names.push_back(name), members.push_back(member);
+  DescribedColumns choose(names);
   if (choose.all_numbered()) layout.has_names = false;
-  try {
-    const std::string text = text_of(file, problems);
-    TextTables found = tables_in(text, layout, std::ref(choose), problems);
-    if (found.tables.empty()) choose.refuse(problems, compare_with_data_table);
-    if (found.tables.size() > 1)
-      problems.add(found.tables[1].header_line, "", "", "a second table begins here",
-                   "give each test a file of its own");
-    problems.throw_if_any();
-    for (const std::string& note : found.notes)
-      notes.push_back(file.filename().string() + ": " + note);
-    TextTable& table = found.tables.front();
-    meshes::CsvTable result;
-    result.file = file;
-    result.remedy = compare_with_data_table;
-    result.rows = std::move(table.rows);
-    result.lines = std::move(table.lines);
-    for (std::size_t i = 0; i < table.titles.size(); ++i) {
-      const auto& name = table.titles[i].written;
-      result.names.push_back(std::ranges::find(result.names, name) == result.names.end()
-                                 ? name
-                                 : fmt::format("column {}", i + 1));
+  FileProblems problems(file);
+  const TextTables found = tables_in(text.text, layout, std::ref(choose), problems);
+  if (found.tables.empty()) choose.refuse(problems, remedy);
+  if (found.tables.size() > 1)
+    problems.add(found.tables[1].header_line, "", "", "a second table begins here",
+                 "give each test a file of its own");
+  problems.throw_if_any();
+  for (const std::string& note : found.notes)
+    notes.push_back(file.filename().string() + ": " + note);
+  const TextTable& table = found.tables.front();
+  std::vector<CurveRow> rows(table.rows.size());
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    rows[row].line = table.lines[row];
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const std::size_t column = table.needed[i];
+      const std::string& cell = table.rows[row][column];
+      const double value = table.number(row, column).value_or(INFINITY);
+      rows[row].*members[i] = cell.empty() ? meshes::unknown : value;
+      if (!cell.empty() && !(std::abs(value) <= meshes::largest_plausible))
+        problems.add(table.lines[row], table.titles[column].written, shown(cell),
+                     "must be a finite number, or nothing", remedy);
     }
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      if (!columns[i].starts_with('#')) result.names[table.needed[i]] = columns[i];
-    return result;
-  } catch (const ConfigError& error) {
-    const Problem& first = error.problems().front();
-    throw InvalidInput({first.place + (first.key.empty() ? "" : ", " + first.key), first.value,
-                        first.rule, first.remedy});
   }
-}
-
-std::vector<double> column_numbers(const meshes::CsvTable& table, const std::string& column) {
-  if (!column.starts_with('#')) return table.numbers(column);
-  const std::size_t place = std::stoul(column.substr(1));
-  if (place > table.names.size())
-    throw InvalidInput(
-        {table.file.string(), column.substr(1),
-         fmt::format("the number of a column is at most that of the table, {}", table.names.size()),
-         compare_with_data_table});
-  return table.numbers(table.names[place - 1]);
+  problems.throw_if_any();
+  return rows;
 }
 
 }  // namespace fingertip::studies::inline measurements

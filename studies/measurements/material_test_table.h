@@ -14,7 +14,7 @@
 #include <toml++/toml.h>
 
 #include "calibration/material_tests/material_test.h"
-#include "meshes/tables/csv_table.h"
+#include "calibration/statistics/curve.h"
 #include "studies/measurements/text_table.h"
 
 namespace fingertip::studies::inline measurements {
@@ -86,9 +86,6 @@ class TestTable {
   const toml::table* common_;
 };
 
-/// The TOML file. Throws InvalidInput with file and line.
-toml::table parsed_description(const std::filesystem::path& file);
-
 /// Calls `take` with every [[name]] of a description, in which [data] has what they have in common:
 /// the `shared` keys; each has name and path, too. `needs`: "path and kind".
 void each_table(const std::filesystem::path& file, const toml::table& root, const std::string& name,
@@ -126,16 +123,17 @@ struct StressColumn {
 };
 StressColumn stress_column(const TestTable& test, std::optional<double> area);
 
-/// What to do about a table of data that does not fit its description.
-inline constexpr const char* compare_with_data_table = "compare the file with its [data] table";
+/// Columns by name or number, "#3"; empty: none.
+struct TestColumns {
+  std::string strain, stress, sigma, time;
+};
 
-/// The table of the file, which must be the only one, with these columns: names or numbers, "#3".
-/// `notes` tell what was found and passed over. Throws InvalidInput with file and line.
-meshes::CsvTable described_table(const std::filesystem::path& file, TableLayout layout,
-                                 const std::vector<std::string>& columns,
-                                 std::vector<std::string>& notes);
-
-/// Of such a table, the column of that name or number.
-std::vector<double> column_numbers(const meshes::CsvTable& table, const std::string& column);
+/// The rows of the file's table, which must be the only one; x is the strain, y the stress. Numbers
+/// as they stand there, NaN for an empty cell. `notes` tell what was found and passed over. Throws
+/// InvalidInput with file and line.
+std::vector<calibration::CurveRow> described_rows(const FileText& text,
+                                                  const std::filesystem::path& file,
+                                                  TableLayout layout, const TestColumns& columns,
+                                                  std::vector<std::string>& notes);
 
 }  // namespace fingertip::studies::inline measurements

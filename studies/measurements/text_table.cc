@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 
-#include "meshes/base/files.h"
 #include "studies/config/text/units.h"
 
 namespace fingertip::studies::inline measurements {
@@ -89,7 +88,7 @@ class TableFinder {
   void add_row(const Line& line);
   void add_cells(TextTable& table, std::size_t line, std::vector<std::string> cells);
   void end_table();
-  void rewrite_numbers(TextTable& table);
+  void find_style(TextTable& table);
   void tell();
 
   string_view text_;
@@ -148,7 +147,7 @@ bool TableFinder::begins_numbered(const Line& line) {
         !table.needed.empty() && std::ranges::all_of(table.needed, [&](std::size_t column) {
           return time_in(cells_[column]) ||
                  std::ranges::any_of(number_styles, [&](NumberStyle style) {
-                   return plain_number(cells_[column], style).has_value();
+                   return number_in(cells_[column], style).has_value();
                  });
         });
     if (!numbers) continue;
@@ -252,26 +251,20 @@ void TableFinder::add_cells(TextTable& table, std::size_t line, std::vector<std:
   table.lines.push_back(line);
 }
 
-void TableFinder::rewrite_numbers(TextTable& table) {
-  NumberStyle best;
+void TableFinder::find_style(TextTable& table) {
   std::size_t most = 0;
+  const std::size_t cells = table.rows.size() * table.needed.size();
   for (const NumberStyle& style : number_styles) {
     if (layout_.decimal_comma && *layout_.decimal_comma != (style.decimal == ',')) continue;
     std::size_t numbers = 0;
     for (const auto& row : table.rows)
       for (const std::size_t column : table.needed)
-        numbers += plain_number(row[column], style).has_value() ? 1 : 0;
-    if (numbers > most) most = numbers, best = style;
+        numbers += number_in(row[column], style).has_value() ? 1 : 0;
+    if (numbers > most) most = numbers, table.style = style;
+    if (most == cells) break;
   }
-  for (auto& row : table.rows)
-    for (const std::size_t column : table.needed)
-      if (auto number = plain_number(row[column], best))
-        row[column] = std::move(*number);
-      else if (const auto time = time_in(row[column]);
-               time && row[column].find(':') != std::string::npos)
-        row[column] = meshes::to_text(*time);
-  commas_ = commas_ || (best.decimal == ',' && !layout_.decimal_comma);
-  thousands_ = thousands_ || best.thousands != 0;
+  commas_ = commas_ || (table.style.decimal == ',' && !layout_.decimal_comma);
+  thousands_ = thousands_ || table.style.thousands != 0;
 }
 
 void TableFinder::tell() {
@@ -319,7 +312,7 @@ TextTables TableFinder::found() {
       read_row(*line);
   }
   end_table();
-  for (TextTable& table : result_.tables) rewrite_numbers(table);
+  for (TextTable& table : result_.tables) find_style(table);
   tell();
   return std::move(result_);
 }
@@ -378,6 +371,12 @@ std::optional<double> time_in(string_view cell) {
     cell.remove_prefix(end + 1);
   }
   return {};
+}
+
+std::optional<double> TextTable::number(std::size_t row, std::size_t column) const {
+  const string_view cell = rows[row][column];
+  if (const auto number = number_in(cell, style)) return number;
+  return time_in(cell);
 }
 
 TextTables tables_in(string_view text, const TableLayout& layout, const ChooseColumns& choose,

@@ -32,8 +32,12 @@ struct TextTable {
   std::size_t header_line = 0;      ///< 0: none
   std::vector<std::size_t> needed;  ///< columns, as chosen
   char separator = ',';
+  NumberStyle style;                           ///< of the needed columns
   std::vector<std::vector<std::string>> rows;  ///< as long as `titles`
   std::vector<std::size_t> lines;              ///< of every row
+
+  /// A time of day counts in seconds. None for a cell that is no number.
+  std::optional<double> number(std::size_t row, std::size_t column) const;
 };
 
 struct TextTables {
@@ -49,14 +53,13 @@ using ChooseColumns =
 /// The tables of `text`. A table begins below the first line whose cells `choose` takes as titles,
 /// or, with numbered columns, at the first line with numbers in all columns that it takes; a row of
 /// units may come first. It ends at the next such header, with numbered columns at two lines of
-/// words. Lines of words (a first cell of three
-/// letters or more where the first row has a number) above, between and below rows are statistics
-/// or remarks: passed over and told, as are lines below the last row that cannot be rows: they
-/// stand apart or have a gap where a row has a value. Cells may stand in double quotes; empty ones
-/// at the end of a row do not count. Numbers in the needed columns are rewritten with a decimal
-/// point and without separators of thousands, by the style in which most of them are numbers (a
-/// point where several are as good); a cell that is none stays as it stands. Adds rows of another
-/// length to `problems`. Keeps no reference to `choose`; `comments` refer to `text`.
+/// words. Lines of words (a first cell of three letters or more where the first row has a number)
+/// above, between and below rows are statistics or remarks: passed over and told, as are lines
+/// below the last row that cannot be rows: they stand apart or have a gap where a row has a value.
+/// Cells may stand in double quotes; empty ones at the end of a row do not count. The style of
+/// numbers is that in which most cells of the needed columns are some (a point where several are as
+/// good). Adds rows of another length to `problems`. Keeps no reference to `choose`; `comments`
+/// refer to `text`.
 TextTables tables_in(std::string_view text, const TableLayout& layout, const ChooseColumns& choose,
                      FileProblems& problems);
 

@@ -1,26 +1,13 @@
 /// A material test in time, from the rows of its file.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "calibration/material_tests/material_test.h"
-#include "meshes/tables/csv_table.h"
 #include "studies/measurements/material_test_table.h"
 
 namespace fingertip::studies::inline measurements {
-
-/// Rows of a table, as they stand in it.
-struct TimedRows {
-  std::vector<double> time, strain, stress, sigma;  ///< strain or sigma may be empty
-  std::vector<std::size_t> lines;                   ///< in the file
-
-  /// The rows from `first` up to, without, `end`.
-  void keep(std::size_t first, std::size_t end);
-  /// Leaves out rows; how many there were.
-  std::size_t drop(const std::function<bool(std::size_t)>& unwanted);
-};
 
 /// Puts times, path, deformations and stresses into `test`, whose kind, course, measure and rate
 /// are known. A strain that is a value is reached at the rate, at once where there is none, and the
@@ -33,8 +20,8 @@ struct TimedRows {
 /// their line; a strain that is not held, or held for less than the ramp took; `file` is for
 /// messages.
 void put_in_time(const TestTable& description, const std::filesystem::path& file,
-                 const StrainColumn& strain, const StressColumn& stress, TimedRows rows,
-                 std::size_t points, calibration::MaterialTest& test,
-                 std::vector<std::string>& notes);
+                 const StrainColumn& strain, const StressColumn& stress, bool has_sigma,
+                 std::vector<calibration::CurveRow> rows, std::size_t points,
+                 calibration::MaterialTest& test, std::vector<std::string>& notes);
 
 }  // namespace fingertip::studies::inline measurements

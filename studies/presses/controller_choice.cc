@@ -45,12 +45,7 @@ Schedule read_schedule(const LoadedConfig& loaded) {
     return {[surrogate](double indentation) { return surrogate->stiffness(indentation); },
             {{"knots", table.knots}, {"force", table.force}, {"stiffness", table.stiffness}}};
   } catch (const meshes::InvalidInput& error) {
-    std::vector<meshes::Violation> broken = error.violations();
-    for (meshes::Violation& violation : broken) {
-      violation.rule = violation.key + ": " + violation.rule;
-      violation.key = "controller.schedule";
-    }
-    throw loaded.locate(broken);
+    throw refused_file(loaded, "controller.schedule", error);
   }
 }
 

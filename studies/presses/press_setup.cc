@@ -47,12 +47,7 @@ const calibration::Material& material_of(const LoadedConfig& loaded) {
   try {
     if (!known) known = calibration::read_material_toml(config.constants_file);
   } catch (const meshes::InvalidInput& error) {
-    std::vector<meshes::Violation> broken = error.violations();
-    for (meshes::Violation& violation : broken) {
-      violation.rule = violation.key + ": " + violation.rule;
-      violation.key = "lattice.constants";
-    }
-    throw loaded.locate(broken);
+    throw refused_file(loaded, "lattice.constants", error);
   }
   if (known->model != config.press.lattice.model) {
     throw loaded.locate(

@@ -25,19 +25,11 @@ void raise(const char* name, Arguments&&... arguments) {
   PyErr_SetObject(type.ptr(), error.ptr());
 }
 
-py::list told(const std::vector<Problem>& problems) {
-  py::list list;
-  for (const Problem& problem : problems)
-    list.append(
-        py::make_tuple(problem.place, problem.key, problem.value, problem.rule, problem.remedy));
-  return list;
-}
-
 py::list told(const std::vector<meshes::Violation>& violations) {
   py::list list;
   for (const meshes::Violation& violation : violations)
-    list.append(
-        py::make_tuple("", violation.key, violation.value, violation.rule, violation.remedy));
+    list.append(py::make_tuple(violation.place, violation.key, violation.value, violation.rule,
+                               violation.remedy));
   return list;
 }
 
@@ -48,8 +40,6 @@ void translate_errors() {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
-    } catch (const ConfigError& error) {
-      raise("ConfigError", told(error.problems()));
     } catch (const meshes::InvalidInput& error) {
       raise("ConfigError", told(error.violations()));
     } catch (const ProcessLost& error) {

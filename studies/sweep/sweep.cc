@@ -38,7 +38,7 @@ class SweepReader {
  public:
   std::string verb;
   std::map<std::string, std::vector<std::string>> axes;  ///< key: literals, without repetitions
-  std::vector<Problem> problems;
+  std::vector<meshes::Violation> problems;
 
   void read_file(const std::filesystem::path& file) {
     file_ = file;
@@ -65,8 +65,8 @@ class SweepReader {
       } else if (const toml::table* inner = node.as_table()) {
         read_table(*inner, key + ".");
       } else if (const Key* known = find_key(key); known == nullptr) {
-        problems.push_back({place, "sweep." + key, "", "unknown key",
-                            "the nearest valid key is " + nearest_key(key)});
+        problems.push_back({"sweep." + key, "", "unknown key",
+                            "the nearest valid key is " + nearest_key(key), place});
       } else {
         take(*known, node, place, file_.parent_path());
       }
@@ -87,8 +87,9 @@ class SweepReader {
             const std::filesystem::path& base) {
     const std::string name = key.full_name();
     if (!is_axis(key, node) || node.as_array()->empty()) {
-      problems.push_back({place, name, toml_literal(node), "a sweep varies lists of values",
-                          "write a list in brackets, or the single value in its own section"});
+      problems.push_back({name, toml_literal(node), "a sweep varies lists of values",
+                          "write a list in brackets, or the single value in its own section",
+                          place});
       return;
     }
     std::vector<std::string>& values = axes[name];
@@ -99,7 +100,7 @@ class SweepReader {
         if (std::ranges::find(values, literal) == values.end()) values.push_back(literal);
       } catch (const UnitError& error) {
         problems.push_back(
-            {place, name, unquoted(toml_literal(element)), error.rule, error.remedy});
+            {name, unquoted(toml_literal(element)), error.rule, error.remedy, place});
       }
     }
   }
@@ -124,7 +125,7 @@ std::vector<SweepPoint> combinations(const SweepReader& reader) {
   std::vector<SweepPoint> points(1);
   for (const auto& [key, values] : reader.axes) {
     if (points.size() * values.size() > most_points)
-      throw ConfigError({{"sweep", "", "", "more than a million points", "shorten an axis"}});
+      throw ConfigError({"", "", "more than a million points", "shorten an axis", "sweep"});
     std::vector<SweepPoint> more;
     for (const SweepPoint& point : points) {
       for (const std::string& value : values) {
@@ -138,16 +139,16 @@ std::vector<SweepPoint> combinations(const SweepReader& reader) {
 }
 
 void check(const SweepReader& reader, const std::string& verb) {
-  std::vector<Problem> problems = reader.problems;
+  std::vector<meshes::Violation> problems = reader.problems;
   if (std::ranges::find(verbs(), verb) == verbs().end()) {
-    problems.push_back({"sweep", "verb", verb,
-                        "a sweep consists of press, modes, reference or grasp",
-                        "the nearest one is " + nearest_word(verb, verbs())});
+    problems.push_back({"verb", verb, "a sweep consists of press, modes, reference or grasp",
+                        "the nearest one is " + nearest_word(verb, verbs()), "sweep"});
   }
   if (reader.axes.empty() && problems.empty()) {
-    problems.push_back({"sweep", "", "", "no key has a list of values",
+    problems.push_back({"", "", "no key has a list of values",
                         "write e.g. --set 'lattice.spacing=[\"tip_radius/6\", \"tip_radius/8\"]', "
-                        "or a table [sweep]"});
+                        "or a table [sweep]",
+                        "sweep"});
   }
   if (!problems.empty()) throw ConfigError(problems);
 }
@@ -163,7 +164,7 @@ Shard parse_shard(const std::string& text) {
   if (!slash || of.ec != std::errc() || of.ptr != end || shard.number < 1 ||
       shard.number > shard.of) {
     throw ConfigError(
-        {{"--shard " + text, "", "", "must be i/N with 1 <= i <= N", "write e.g. --shard 1/8"}});
+        {"", "", "must be i/N with 1 <= i <= N", "write e.g. --shard 1/8", "--shard " + text});
   }
   return shard;
 }

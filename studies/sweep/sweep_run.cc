@@ -100,7 +100,7 @@ std::vector<PlannedPoint> plan(const Sweep& sweep, const std::vector<SweepPoint>
 
 void claim_folder(const Sweep& sweep, const fs::path& folder) {
   const auto refuse = [&](const char* rule) {
-    throw ConfigError({{"--out " + folder.string(), "", "", rule, "choose another folder"}});
+    throw ConfigError({"", "", rule, "choose another folder", "--out " + folder.string()});
   };
   const auto content = content_of(sweep);
   if (fs::exists(folder / sweep_file)) {

@@ -197,8 +197,8 @@ std::string screen_text(const std::vector<Row>& rows, const std::vector<std::str
 
 SweepCensus collect(const fs::path& folder) {
   if (!fs::exists(folder / sweep_file)) {
-    throw ConfigError({{"--collect " + folder.string(), "", "", "is not the folder of a sweep",
-                        "give what sweep --out has written to"}});
+    throw ConfigError({"", "", "is not the folder of a sweep",
+                       "give what sweep --out has written to", "--collect " + folder.string()});
   }
   const JsonEntry sweep = read_entry(folder / sweep_file);
   std::vector<std::string> axes;

@@ -108,9 +108,8 @@ RealTimeRun real_time_run(const CommandLine& line) {
   // In the live view people push the rod wherever they like.
   if (line.verb == "live") asked = with_sets(asked, {"run.symmetry=false"});
   if (line.verb == "press" && asked.config.press.protocol.mode == meshes::DriveMode::equilibrium)
-    throw ConfigError(
-        {{"--real-time", "press.mode", "static",
-          "a press in equilibrium has no time to keep up with", "choose pid or quasi-static"}});
+    throw ConfigError({"press.mode", "static", "a press in equilibrium has no time to keep up with",
+                       "choose pid or quasi-static", "--real-time"});
   const std::string identity = identity_of(asked);
   RealTimeRun run;
   if (const auto kept = kept_record(line, identity))

@@ -29,7 +29,7 @@ int run_check(const CommandLine& line) {
   std::vector<std::string> files = line.arguments;
   if (!line.config.file.empty()) files.push_back(line.config.file.string());
   if (files.empty()) {
-    throw ConfigError({{"check", "", "", "no file is given", "give a configuration file"}});
+    throw ConfigError({"", "", "no file is given", "give a configuration file", "check"});
   }
   for (const std::string& file : files) {
     const Case study_case = load_case(file, line.config);
@@ -41,7 +41,7 @@ int run_check(const CommandLine& line) {
     for (const std::string& note : complete.notes) fmt::print("{}: note: {}\n", file, note);
     // No error: the continuum can do it.
     const ConfigError located = complete.locate(beyond_the_lattice(complete));
-    for (const Problem& limit : located.problems()) {
+    for (const meshes::Violation& limit : located.violations()) {
       fmt::print("{}: note: for press and validate: {}\n", file, to_string(limit));
     }
     fmt::print("{}: OK\n", file);
@@ -67,8 +67,8 @@ int run_explain(const CommandLine& line) {
       found = true;
     }
     if (!found) {
-      throw ConfigError({{"explain " + name, "", "", "there is no such key",
-                          "the nearest valid key is " + nearest_key(name)}});
+      throw ConfigError({"", "", "there is no such key",
+                         "the nearest valid key is " + nearest_key(name), "explain " + name});
     }
   }
   return 0;
@@ -82,7 +82,7 @@ int run_init(const CommandLine& line) {
     return 0;
   }
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {
-    throw ConfigError({{"init " + file.string(), "", "", rule, remedy}});
+    throw ConfigError({"", "", rule, remedy, "init " + file.string()});
   };
   if (std::filesystem::exists(file) && !line.force) {
     refuse("the file exists already", "choose another name, or say --force to replace it");

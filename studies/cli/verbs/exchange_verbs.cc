@@ -44,7 +44,7 @@ LoadedConfig load_for_law(const CommandLine& line) {
 /// Laws of contact, fitted to the continuum.
 int export_contact(const CommandLine& line) {
   const LoadedConfig loaded = with_material(load_for_law(line), LatticeUse::none);
-  const std::vector<Problem> lost = lost_in_contact(loaded);
+  const std::vector<meshes::Violation> lost = lost_in_contact(loaded);
   if (!lost.empty() && !line.lossy) throw ConfigError(lost);
   const ContactCurves curves = contact_curves(line.format, loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {

@@ -209,8 +209,8 @@ int run_press(const CommandLine& line) {
   if (loaded.config.automatic_integrator) loaded.notes.push_back(integrator_note(setup));
   if (const auto note = duration_note(setup, cores_for(loaded))) loaded.notes.push_back(*note);
   if (line.movie > 0 && setup.protocol.mode == meshes::DriveMode::equilibrium) {
-    throw ConfigError({{"--movie", "press.mode", "static", "a press without time has no movie",
-                        "choose pid or quasi-static"}});
+    throw ConfigError({"press.mode", "static", "a press without time has no movie",
+                       "choose pid or quasi-static", "--movie"});
   }
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const std::filesystem::path& folder = session.folder().path();

@@ -20,9 +20,9 @@ std::optional<UnitSystem> wanted_units(const CommandLine& line) {
   const LoadedConfig loaded = load_config({{}, line.config.sets, {}});
   for (const auto& [key, entry] : loaded.entries) {
     if (entry.given && key != "run.units")
-      throw ConfigError({{entry.place, key, unquoted(entry.literal),
-                          "a page of finished runs takes run.units alone",
-                          "give the key to the verb that makes the run"}});
+      throw ConfigError({key, unquoted(entry.literal),
+                         "a page of finished runs takes run.units alone",
+                         "give the key to the verb that makes the run", entry.place});
   }
   return loaded.entries.at("run.units").given ? std::optional(asked_units(loaded)) : std::nullopt;
 }

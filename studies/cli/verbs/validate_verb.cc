@@ -18,9 +18,8 @@ namespace fs = std::filesystem;
 std::vector<fs::path> wanted_cases(const CommandLine& line) {
   if (!line.config.file.empty()) {
     if (line.all || !line.arguments.empty()) {
-      throw ConfigError(
-          {{"--config " + line.config.file.string(), "", "",
-            "validate takes either cases or a configuration, not both", "leave out one of them"}});
+      throw ConfigError({"", "", "validate takes either cases or a configuration, not both",
+                         "leave out one of them", "--config " + line.config.file.string()});
     }
     return {line.config.file};
   }

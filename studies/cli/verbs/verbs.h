@@ -9,7 +9,7 @@ namespace fingertip::studies::inline cli::inline verbs {
 /// Ends the verb with exit code 2: what is wrong at `place`, and what to do.
 [[noreturn]] inline void refuse(const std::string& place, const std::string& rule,
                                 const std::string& remedy) {
-  throw ConfigError({{place, "", "", rule, remedy}});
+  throw ConfigError({"", "", rule, remedy, place});
 }
 
 /// The verb that the line names.

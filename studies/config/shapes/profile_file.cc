@@ -79,10 +79,7 @@ bool take_number(std::istream& words, double& number) {
 }  // namespace
 
 std::vector<ProfileCorner> read_profile(const std::filesystem::path& file) {
-  const CsvTable table =
-      meshes::read_csv(file, {.separator = meshes::separator_of_names,
-                              .complete = false,  // editors and spreadsheets may leave it open
-                              .remedy = separate_alike});
+  const CsvTable table = meshes::read_csv_of_people(file, separate_alike);
   const LengthColumn r = length_column(table, "r"), z = length_column(table, "z");
   if (!table.has("surface"))
     refuse_names(table, "", "the first line must name the column surface", write_names());

@@ -1,22 +1,20 @@
 #include "studies/config/text/toml_text.h"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "calibration/files/toml_depth.h"
+#include "calibration/files/toml_file.h"
+#include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
 namespace fingertip::studies::inline config::inline text {
 
 toml::table parsed_file(const std::filesystem::path& file) {
   try {
-    std::ostringstream content;
-    content << std::ifstream(file, std::ios::binary).rdbuf();
-    if (calibration::nests_too_deep(content.str())) return {};
-    return toml::parse(content.str(), file.string());
-  } catch (const toml::parse_error&) {
+    return calibration::parsed_toml(file, "");
+  } catch (const meshes::InvalidInput&) {
     return {};
   }
 }

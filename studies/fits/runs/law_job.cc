@@ -196,12 +196,7 @@ LawInput law_input(const LoadedConfig& loaded) {
   try {
     input.tests = read_material_tests(settings.tests);
   } catch (const meshes::InvalidInput& error) {
-    for (const meshes::Violation& broken : error.violations())
-      found.push_back(
-          {"calibration.tests", broken.value,
-           broken.key + (broken.value.empty() ? "" : " = " + broken.value) + ": " + broken.rule,
-           broken.remedy});
-    throw loaded.locate(found);
+    throw refused_file(loaded, "calibration.tests", error);
   }
   input.laws = with_branches(asked, input.tests, settings.branches);
   return input;

@@ -68,8 +68,8 @@ std::string place_in(const std::filesystem::path& file, std::size_t line) {
 /// What is wrong with a press that a measured file describes stands in that file.
 ConfigError placed_in(const std::filesystem::path& path, const MeasuredFile& file,
                       const ConfigError& error) {
-  std::vector<Problem> problems = error.problems();
-  for (Problem& problem : problems) {
+  std::vector<meshes::Violation> problems = error.violations();
+  for (meshes::Violation& problem : problems) {
     const auto setting = std::ranges::find(file.settings, problem.key, &MeasuredSetting::key);
     if (setting != file.settings.end()) problem.place = place_in(path, setting->line);
     // Increasing indentations: the last one is what goes too deep.
@@ -193,7 +193,7 @@ void check_curves(const LoadedConfig& loaded, const FitInput& input,
   try {
     calibration::check_curve_fit(curves_of(input), input.options);
   } catch (const meshes::InvalidInput& error) {
-    std::vector<Problem> problems;
+    std::vector<meshes::Violation> problems;
     for (const meshes::Violation& violation : error.violations()) {
       std::string places;
       for (std::size_t i = 0; i < files.size(); ++i) {
@@ -202,7 +202,7 @@ void check_curves(const LoadedConfig& loaded, const FitInput& input,
         places += (places.empty() ? "" : ", ") + files[i].string();
       }
       const bool of_data = violation.key.starts_with("curves");
-      Problem problem = loaded.locate({violation}).problems().front();
+      meshes::Violation problem = loaded.locate({violation}).violations().front();
       if (of_data) {
         problem.place = places;
         problem.key = violation.key.ends_with(".sigma") ? "sigma" : "calibration.data";
@@ -273,8 +273,6 @@ void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
       add_measured_press(fit, loaded, source, file, kind, sets, blanks).rows = rows;
     } catch (const meshes::InvalidInput& error) {
       throw placed_in(source.path, file, loaded.locate(error.violations()));
-    } catch (const ConfigError& error) {
-      throw placed_in(source.path, file, error);
     }
     return;
   }

@@ -164,10 +164,8 @@ Candidate pressed(const FirstPress& first, const std::string& name,
               {"press.mode=static", samples_setting(calibration::depths_for_rig(depth))});
     candidate.input = input_of(first, own, name, depth);
     candidate.press = in_words(candidate.input->curves.front().condition, depth);
-  } catch (const ConfigError& error) {
-    candidate.refused = to_string(error.problems().front());
   } catch (const meshes::InvalidInput& error) {
-    candidate.refused = error.what();
+    candidate.refused = to_string(error.violations().front());
   }
   return candidate;
 }
@@ -233,7 +231,7 @@ Candidate conditioned(const FirstPress& first, const std::string& name,
     return {.name = name,
             .press = condition,
             .depth = depth,
-            .refused = to_string(error.problems().front())};
+            .refused = to_string(error.violations().front())};
   }
   return pressed(first, name, further, depth);
 }

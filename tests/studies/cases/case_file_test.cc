@@ -72,7 +72,7 @@ TEST(Cases, RefusesCriteriaThatCannotBeJudged) {
     load_case(folder / "case.toml", {});
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_EQ(error.problems().size(), 4U) << error.what();
+    EXPECT_EQ(error.violations().size(), 4U) << error.what();
     EXPECT_NE(std::string(error.what()).find("hookean.speed_deviation"), std::string::npos);
   }
 }

@@ -14,18 +14,18 @@ using namespace fingertip::studies;
 
 namespace {
 
-std::vector<Problem> problems(const auto& action) {
+std::vector<fingertip::meshes::Violation> problems(const auto& action) {
   try {
     action();
   } catch (const ConfigError& error) {
-    return error.problems();
+    return error.violations();
   }
   return {};
 }
 
 /// The problems of a configuration file with this text and these --set; empty when it is fine.
-std::vector<Problem> problems_of(const std::string& text,
-                                 const std::vector<std::string>& sets = {}) {
+std::vector<fingertip::meshes::Violation> problems_of(const std::string& text,
+                                                      const std::vector<std::string>& sets = {}) {
   const TemporaryFolder folder;
   write_text(folder / "case.toml", text);
   return problems([&] { config_in(folder / "case.toml", sets); });
@@ -192,7 +192,7 @@ TEST(Loader, CollectsAllProblemsWithTheirLines) {
                   {"press.speed=0 m/s"});
   ASSERT_EQ(problems.size(), 4U);
   std::string all;
-  for (const Problem& problem : problems) all += to_string(problem) + "\n";
+  for (const fingertip::meshes::Violation& problem : problems) all += to_string(problem) + "\n";
   EXPECT_TRUE(says(all, {"case.toml:2: rubber.youngs_modulus = 40 N: ", "wrong dimension",
                          "case.toml:3: rubber.densty = 1 g/cm^3: unknown key",
                          "nearest valid key is rubber.density", "case.toml:4: latice",

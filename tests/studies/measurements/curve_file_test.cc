@@ -37,7 +37,7 @@ class MeasuredData : public testing::Test {
       read(text);
     } catch (const ConfigError& error) {
       const std::string file = (folder_ / "data.csv").string();
-      for (const Problem& problem : error.problems()) {
+      for (const fingertip::meshes::Violation& problem : error.violations()) {
         EXPECT_EQ(problem.place.find(file), 0U) << problem.place;
         EXPECT_FALSE(problem.rule.empty() || problem.remedy.empty());
         lines.push_back(to_string(problem).substr(file.size()));
@@ -363,7 +363,7 @@ TEST_F(MeasuredData, DamagedFilesAreRefusedOrSound) {
       }
     } catch (const ConfigError& error) {
       ++refused;
-      ASSERT_FALSE(error.problems().empty());
+      ASSERT_FALSE(error.violations().empty());
     }
   }
   EXPECT_GT(accepted, 100);

@@ -63,7 +63,7 @@ TEST(KeyTable, EveryRefusalTellsKeyValueRuleAndRemedy) {
         load_config({{}, {name + "=" + value}, {}});
         ADD_FAILURE() << name << " takes " << value;
       } catch (const ConfigError& error) {
-        const Problem& problem = error.problems().front();
+        const fingertip::meshes::Violation& problem = error.violations().front();
         EXPECT_EQ(problem.key, name) << error.what();
         // As it was written, but for quotes and the way numbers are spelt.
         EXPECT_FALSE(problem.value.empty()) << error.what();
