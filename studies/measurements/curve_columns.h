@@ -11,11 +11,15 @@ namespace fingertip::studies::inline measurements {
 /// A column's name and SI unit, "1" for a number without dimension.
 struct Quantity {
   std::string_view name, unit;
+
+  bool operator==(const Quantity&) const = default;
 };
 
 /// What a file may hold: y over x.
 struct CurveQuantities {
   Quantity x, y;
+
+  bool operator==(const CurveQuantities&) const = default;
 };
 
 /// The pairs that calibrations know.

@@ -324,4 +324,15 @@ std::vector<MeasuredFile> read_measured(const CurveSource& source,
   return CurveReader(source, allowed, in_time).read();
 }
 
+const std::vector<MeasuredFile>& MeasuredFiles::of(const CurveSource& source,
+                                                   const std::vector<CurveQuantities>& allowed,
+                                                   bool in_time) {
+  const auto known = std::ranges::find_if(read_, [&](const Read& read) {
+    return read.source == source && read.allowed == allowed && read.in_time == in_time;
+  });
+  if (known != read_.end()) return known->files;
+  read_.push_back({source, allowed, in_time, read_measured(source, allowed, in_time)});
+  return read_.back().files;
+}
+
 }  // namespace fingertip::studies::inline measurements

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,5 +64,23 @@ struct MeasuredFile {
 std::vector<MeasuredFile> read_measured(const CurveSource& source,
                                         const std::vector<CurveQuantities>& allowed,
                                         bool in_time = false);
+
+/// Measured files, each of them read once, however often a fit is set up.
+class MeasuredFiles {
+ public:
+  /// As read_measured does.
+  const std::vector<MeasuredFile>& of(const CurveSource& source,
+                                      const std::vector<CurveQuantities>& allowed,
+                                      bool in_time = false);
+
+ private:
+  struct Read {
+    CurveSource source;
+    std::vector<CurveQuantities> allowed;
+    bool in_time = false;
+    std::vector<MeasuredFile> files;
+  };
+  std::list<Read> read_;
+};
 
 }  // namespace fingertip::studies::inline measurements

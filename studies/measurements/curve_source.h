@@ -18,6 +18,8 @@ struct ColumnWish {
   std::string column;    ///< a name of the header, or "#3": the third
   std::string unit;      ///< empty: the file's own
   double sign = 1.0;
+
+  bool operator==(const ColumnWish&) const = default;
 };
 
 /// A file and what is known of it.
@@ -32,6 +34,8 @@ struct CurveSource {
   std::string condition = {};  ///< settings of the press, "press.contact=stick; ..."
   bool rigid = false;          ///< a blank in place of the finger, which tells the machine alone
   double sigma = 0.0;          ///< of every row [N], where no column tells it; 0: unknown
+
+  bool operator==(const CurveSource&) const = default;
 };
 
 /// The files that an entry of calibration.data means: itself, or, where it is TOML,

@@ -18,6 +18,8 @@ struct TableLayout {
   std::optional<bool> decimal_comma;  ///< 1,5 for 1.5
   std::size_t skip = 0;               ///< lines at the beginning, whatever they hold
   bool has_names = true;              ///< false: columns are numbered only
+
+  bool operator==(const TableLayout&) const = default;
 };
 
 /// A title of the header.

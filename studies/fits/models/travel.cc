@@ -10,7 +10,6 @@
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 #include "studies/files/shown_units.h"
-#include "studies/measurements/curve_file.h"
 
 namespace fingertip::studies::inline fits::inline models {
 
@@ -26,10 +25,14 @@ constexpr const char* rig_key_name = "calibration.rig";
 constexpr double reserve = 0.05;
 }  // namespace
 
-RigSettings with_blank(RigSettings rig, std::vector<CurveSource> others,
-                       std::vector<std::string>& notes) {
+std::vector<CurveSource> blanks_of(const RigSettings& rig, std::vector<CurveSource> others) {
   if (!rig.blank.empty()) std::ranges::move(curve_sources(rig.blank), std::back_inserter(others));
-  if (others.empty()) return rig;
+  return others;
+}
+
+RigSettings with_blank(RigSettings rig, const std::vector<CurveSource>& blanks,
+                       MeasuredFiles& files, std::vector<std::string>& notes) {
+  if (blanks.empty()) return rig;
   if (rig.compliance.given)
     throw InvalidInput({rig_key_name, "compliance beside blank",
                         "the blank tells the compliance of its machine", "leave one of them out"});
@@ -39,8 +42,8 @@ RigSettings with_blank(RigSettings rig, std::vector<CurveSource> others,
   // Repeats of the blank: the mean of their lines, which scatter.
   std::vector<calibration::Prior> found;
   double largest = 0.0;
-  for (const CurveSource& source : others)
-    for (const MeasuredFile& file : read_measured(source, {measured::travel})) {
+  for (const CurveSource& source : blanks)
+    for (const MeasuredFile& file : files.of(source, {measured::travel})) {
       for (const std::string& note : file.notes) say("blank " + file.curve.name + ": " + note);
       found.push_back(calibration::compliance_of_blank(file.curve));
       largest = std::max(largest, *std::ranges::max_element(file.curve.y));
@@ -57,7 +60,7 @@ RigSettings with_blank(RigSettings rig, std::vector<CurveSource> others,
   rig.compliance.deviation = std::sqrt(variance);
   const ShownUnits& units = shown_units();
   say(fmt::format("blank {}: the machine gives way by {:.4g} +- {:.2g} {} (95 %), a line up to {}",
-                  others.front().path.filename().string(), units.compliance(rig.compliance.value),
+                  blanks.front().path.filename().string(), units.compliance(rig.compliance.value),
                   units.compliance(calibration::normal_95() * rig.compliance.deviation),
                   units.compliance.ascii, units.force.text(largest)));
   return rig;

@@ -7,7 +7,7 @@
 #include "calibration/press_fit/rig_model.h"
 #include "calibration/statistics/curve.h"
 #include "studies/config/keys/config.h"
-#include "studies/measurements/curve_source.h"
+#include "studies/measurements/curve_file.h"
 
 namespace fingertip::studies::inline fits::inline models {
 
@@ -29,11 +29,14 @@ struct Travel {
 /// Nothing of it free, at the settings' values.
 calibration::Rig rig_of(const RigSettings& settings);
 
-/// `rig` with the compliance that its blank tells, or those `others` of its machine, if there is
-/// one; what is said of that goes into `notes`, once. Throws InvalidInput (key calibration.rig) for
-/// a compliance beside a blank, and as readers of files do.
-RigSettings with_blank(RigSettings rig, std::vector<CurveSource> others,
-                       std::vector<std::string>& notes);
+/// `others` of its machine and the blank that the rig names. Throws InvalidInput as curve_sources.
+std::vector<CurveSource> blanks_of(const RigSettings& rig, std::vector<CurveSource> others = {});
+
+/// `rig` with the compliance that blanks of its machine tell, if there are any; what is said of
+/// that goes into `notes`, once. Throws InvalidInput (key calibration.rig) for a compliance beside
+/// a blank, and as readers of files do.
+RigSettings with_blank(RigSettings rig, const std::vector<CurveSource>& blanks,
+                       MeasuredFiles& files, std::vector<std::string>& notes);
 
 /// The settings that concern `curve`, and what its forces tell of the touch: F^(2/3) of Hertz is
 /// straight in delta, from 5 to 40 % of the largest force. Throws InvalidInput (key

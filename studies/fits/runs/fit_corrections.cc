@@ -93,7 +93,8 @@ std::optional<FitSetup> with_other_contact(const FitSetup& fit) {
     return std::nullopt;
   const ContactMode other = opposite(fit.loaded.config.press.protocol.contact);
   return fit_setup(with_sets(fit.loaded, {"press.contact=" + std::string(meshes::name(other)),
-                                          "calibration.candidates=[]", "calibration.profile=[]"}));
+                                          "calibration.candidates=[]", "calibration.profile=[]"}),
+                   fit.files);
 }
 
 void add_other_contact(const FitFile& other, const std::string& taken, const std::string& name,

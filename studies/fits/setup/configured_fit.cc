@@ -116,12 +116,14 @@ bool is_lattice(const FitCurve& curve) {
 /// Where the presses of a fit come from.
 enum class Presses { made, planned };
 
-FitSetup assembled(const LoadedConfig& given, Presses presses) {
+FitSetup assembled(const LoadedConfig& given, Presses presses,
+                   const std::shared_ptr<MeasuredFiles>& files) {
   const CalibrationSettings& wanted = given.config.calibration;
   const LoadedConfig loaded = knows_relaxation(wanted) ? in_equilibrium(given) : given;
   check_model(loaded);
   check_data(loaded);
   FitSetup fit;
+  fit.files = files;
   FitInput& input = fit.input;
   input.problem = wanted.problem;
   input.base = base_of(loaded);
@@ -195,7 +197,7 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit, Presses p
   if (std::abs(most) <= small_excess) return fit;
   const std::string said = strain_words(depth, most);
   if (may_be_finite(loaded, fit.input)) {
-    FitSetup finite = assembled(with_sets(loaded, {"lattice.model=network"}), presses);
+    FitSetup finite = assembled(with_sets(loaded, {"lattice.model=network"}), presses, fit.files);
     finite.notes.push_back(said +
                            ": the finite law is fitted, lattice.model = network (small "
                            "strain on request: lattice.kinematics = small)");
@@ -225,8 +227,9 @@ void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
                   fit.input.options.max_evaluations));
 }
 
-FitSetup set_up(const LoadedConfig& loaded, Presses presses) {
-  FitSetup first = assembled(loaded, presses);
+FitSetup set_up(const LoadedConfig& loaded, Presses presses,
+                const std::shared_ptr<MeasuredFiles>& files) {
+  FitSetup first = assembled(loaded, presses, files);
   const auto excess = excess_of_finite_strain(first.input);
   FitSetup fit = at_the_right_strain(loaded, std::move(first), presses, excess);
   if (fit.input.base.lattice.kinematics == lattice::Kinematics::small)
@@ -248,8 +251,8 @@ std::string strain_words(double depth, double excess) {
       100.0 * depth, 100.0 * std::abs(excess), excess < 0.0 ? "softer" : "stiffer");
 }
 
-FitSetup fit_setup(const LoadedConfig& loaded) {
-  return set_up(loaded, Presses::made);
+FitSetup fit_setup(const LoadedConfig& loaded, const std::shared_ptr<MeasuredFiles>& files) {
+  return set_up(loaded, Presses::made, files);
 }
 
 FitSetup plan_setup(const LoadedConfig& loaded) {
@@ -257,7 +260,7 @@ FitSetup plan_setup(const LoadedConfig& loaded) {
   if (problem != CalibrationProblem::experiment)
     throw refused(loaded, "calibration.problem", std::string(name(problem)),
                   "a plan is one of measured presses", "take the problem experiment");
-  return set_up(loaded, Presses::planned);
+  return set_up(loaded, Presses::planned, std::make_shared<MeasuredFiles>());
 }
 
 }  // namespace fingertip::studies::inline fits::inline setup

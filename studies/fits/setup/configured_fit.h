@@ -9,7 +9,9 @@
 namespace fingertip::studies::inline fits::inline setup {
 
 /// Throws ConfigError with every problem of [calibration], of a condition or a measured file.
-FitSetup fit_setup(const LoadedConfig& loaded);
+/// `files`: those that were read for another fit of them.
+FitSetup fit_setup(const LoadedConfig& loaded,
+                   const std::shared_ptr<MeasuredFiles>& files = std::make_shared<MeasuredFiles>());
 
 /// The same of presses that are planned: no file is read, y and sigma are empty. Throws ConfigError
 /// also for another problem than experiment.

@@ -1,6 +1,5 @@
 /// Measured curves as those of a fit: their presses, rigs, units and what is wrong with them.
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <map>
 
@@ -12,7 +11,6 @@
 #include "studies/fits/models/fit_rig.h"
 #include "studies/fits/models/travel.h"
 #include "studies/fits/setup/fit_curves.h"
-#include "studies/jobs/digest.h"
 #include "studies/measurements/curve_file.h"
 #include "studies/measurements/curve_text.h"
 
@@ -108,17 +106,10 @@ void check_depth(const std::filesystem::path& path, const MeasuredFile& file, do
   problems.throw_if_any();
 }
 
-/// Empty of what is no file; its reader says so.
-std::string content_of(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) return {};
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Files that were measured, once each, with what tells them apart from another of the name.
-void add_provenance(FitSetup& fit, const std::string& what, const CurveSource& source) {
-  const std::string file =
-      what + source.path.filename().string() + " (SHA-256 " + sha256(content_of(source.path)) + ")";
+void add_provenance(FitSetup& fit, const std::string& what, const std::filesystem::path& path,
+                    const std::string& sha256) {
+  const std::string file = what + path.filename().string() + " (SHA-256 " + sha256 + ")";
   std::string& all = fit.input.provenance;
   if (all.empty())
     all = "measured data: " + file;
@@ -141,12 +132,12 @@ FitCurve& add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const Cu
     Config own = under(loaded, condition, {"press.mode=static"}).config;
     if (file.curve.is_travel) {
       const auto known = blanks.find(own.calibration.machine);
-      const auto rigid = known == blanks.end() ? std::vector<CurveSource>{} : known->second;
-      own.calibration.rig = with_blank(own.calibration.rig, rigid, fit.notes);
-      for (const CurveSource& blank : rigid) add_provenance(fit, "blank ", blank);
-      if (!own.calibration.rig.blank.empty())
-        for (const CurveSource& blank : curve_sources(own.calibration.rig.blank))
-          add_provenance(fit, "blank ", blank);
+      const auto rigid = blanks_of(
+          own.calibration.rig, known == blanks.end() ? std::vector<CurveSource>{} : known->second);
+      own.calibration.rig = with_blank(own.calibration.rig, rigid, *fit.files, fit.notes);
+      for (const CurveSource& blank : rigid)
+        add_provenance(fit, "blank ", blank.path,
+                       fit.files->of(blank, {measured::travel}).front().sha256);
       travel = travel_of(file.curve, own.calibration);
     }
     check_depth(source.path, file, travel ? travel->reach : std::ranges::max(depths),
@@ -241,16 +232,6 @@ void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
   }
 }
 
-/// The files of an entry of calibration.data.
-std::vector<CurveSource> sources_of(const LoadedConfig& loaded,
-                                    const std::filesystem::path& entry) {
-  try {
-    return curve_sources(entry);
-  } catch (const meshes::InvalidInput& error) {
-    throw loaded.locate(error.violations());
-  }
-}
-
 void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSource& source,
                         MeasuredFile file, const std::string& condition, const Blanks& blanks,
                         NotesOnFiles& notes) {
@@ -297,7 +278,7 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
   std::vector<std::pair<CurveSource, std::string>> sources;
   Blanks blanks;
   for (std::size_t i = 0; i < settings.data.size(); ++i)
-    for (CurveSource& source : sources_of(loaded, settings.data[i])) {
+    for (CurveSource& source : curve_sources(settings.data[i])) {
       const std::string condition = settings.conditions.empty() ? "" : settings.conditions[i];
       if (!source.rigid) {
         sources.emplace_back(std::move(source), condition);
@@ -309,10 +290,10 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
   NotesOnFiles notes;
   std::vector<std::filesystem::path> files;
   for (const auto& [source, condition] : sources) {
-    add_provenance(fit, "", source);
-    for (MeasuredFile& file :
-         read_measured(source, quantities_of(settings.problem), !fit.input.branches.empty())) {
-      add_measured_curve(fit, loaded, source, std::move(file), condition, blanks, notes);
+    for (const MeasuredFile& file :
+         fit.files->of(source, quantities_of(settings.problem), !fit.input.branches.empty())) {
+      add_provenance(fit, "", source.path, file.sha256);
+      add_measured_curve(fit, loaded, source, file, condition, blanks, notes);
       files.push_back(source.path);
     }
   }

@@ -80,7 +80,8 @@ void add_planned_curves(FitSetup& fit, const LoadedConfig& loaded) {
     any_travel = any_travel || curve.is_travel;
     RigSettings rig = rigid();
     try {
-      if (curve.is_travel) rig = with_blank(asked.config.calibration.rig, {}, fit.notes);
+      const RigSettings& own = asked.config.calibration.rig;
+      if (curve.is_travel) rig = with_blank(own, blanks_of(own), *fit.files, fit.notes);
     } catch (const meshes::InvalidInput& error) {
       throw asked.locate(error.violations());
     }

@@ -1,11 +1,13 @@
 /// The input of a fit beside the configuration that it comes from.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "studies/config/loader.h"
 #include "studies/fits/models/fit_input.h"
+#include "studies/measurements/curve_file.h"
 
 namespace fingertip::studies::inline fits::inline setup {
 
@@ -18,6 +20,7 @@ struct FitSetup {
   std::vector<std::vector<std::string>> settings;  ///< of measured or planned presses, as --set
   bool contact_known = true;                       ///< of all of them, not by default
   std::vector<std::string> notes;  ///< on measured files, strain and budget; for people
+  std::shared_ptr<MeasuredFiles> files = std::make_shared<MeasuredFiles>();  ///< that were read
 };
 
 }  // namespace fingertip::studies::inline fits::inline setup
