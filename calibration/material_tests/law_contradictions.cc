@@ -28,7 +28,7 @@ constexpr double unlikely_order = 0.05;
 /// machines let tests of one rubber differ by some 10 %, and a law is no more than a law.
 constexpr double largest_misfit_of_law = 0.15;
 /// What a test does on one side of rest counts by itself where it goes so far, of all its strain.
-constexpr double least_side = 0.1;
+constexpr double min_side = 0.1;
 /// Up to this logarithmic strain rubbers are neo-Hookean enough for a modulus [1], and moduli that
 /// differ by more than this factor contradict each other.
 constexpr double small_strain = 0.3, contradiction = 1.3;
@@ -128,7 +128,7 @@ std::vector<TestPart> parts_of(const MaterialTest& test) {
   std::vector<TestPart> parts;
   for (auto& [mode, side] : sides) parts.push_back(std::move(side));
   std::ranges::stable_sort(parts, std::greater(), &TestPart::strain);
-  if (parts.size() == 2 && parts[1].strain < least_side * parts[0].strain) {
+  if (parts.size() == 2 && parts[1].strain < min_side * parts[0].strain) {
     parts[0].points.insert(parts[0].points.end(), parts[1].points.begin(), parts[1].points.end());
     parts.pop_back();
   }
@@ -319,8 +319,7 @@ std::vector<UntestedMode> untested_modes(const LawFit& fit, const std::vector<Ma
   return modes;
 }
 
-void add_differences(std::vector<LawFit>& ranking) {
-  const std::vector<const LawFit*> laws = equals(ranking);
+void add_differences(const std::vector<const LawFit*>& laws, std::vector<LawFit>& ranking) {
   if (laws.empty() || laws.front()->untested.empty() || !laws.front()->predicted.empty()) return;
   std::string text;
   for (std::size_t i = 0; i < laws.front()->untested.size(); ++i) {

@@ -16,7 +16,7 @@ std::vector<UntestedMode> untested_modes(const LawFit& fit, const std::vector<Ma
 
 /// How far laws that meet the tests alike differ where these know one way of deforming alone and
 /// none was held back.
-void add_differences(std::vector<LawFit>& ranking);
+void add_differences(const std::vector<const LawFit*>& laws, std::vector<LawFit>& ranking);
 
 /// Predictions that miss, and loops that the law does not make, or makes too large.
 void add_missed_predictions(LawFit& result);

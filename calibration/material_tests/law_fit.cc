@@ -286,7 +286,7 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
     if (a.failure.empty() != b.failure.empty()) return a.failure.empty();
     return a.aicc < b.aicc;
   });
-  add_differences(ranking);
+  add_differences(equals(ranking), ranking);
   return ranking;
 }
 

@@ -1,5 +1,6 @@
 #include "calibration/material_tests/law_model.h"
 
+#include <ceres/jet.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +8,7 @@
 
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
+#include "meshes/rubber/law_terms.h"
 
 namespace fingertip::calibration::inline material_tests {
 
@@ -22,53 +24,36 @@ double measured_stress(const Three& kirchhoff, TestKind kind, StressMeasure meas
   return parts[0] * weights[0] + parts[1] * weights[1];
 }
 
-/// d(kirchhoff)/d(alpha) of 2 mu/alpha (l^alpha - 1) at mu = 1.
-Three by_exponent(double alpha, const Three& stretch) {
-  Three slope;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double y = std::log(stretch[k]), ay = alpha * y;
-    // (ay e^ay - (e^ay - 1))/alpha², whose terms cancel where ay is small.
-    slope[k] = std::abs(ay) < 1e-4 ? y * y * (1.0 + 2.0 / 3.0 * ay)
-                                   : 2.0 * (ay * std::exp(ay) - std::expm1(ay)) / (alpha * alpha);
-  }
-  return slope;
-}
-
-/// Kirchhoff stresses of a law whose coefficient `i` is 1 and whose others are 0, or its derivative
-/// by coefficient i where the law is no sum of them.
-Three by_coefficient(const LawChoice& choice, const VectorXd& c, Index i, const Three& stretch) {
-  const auto response = [&](const meshes::StrainEnergy& energy, double modulus) {
-    Three tau = principal_response(energy, stretch).kirchhoff;
-    for (double& value : tau) value *= modulus;
-    return tau;
-  };
-  const double above =
-      stretch[0] * stretch[0] + stretch[1] * stretch[1] + stretch[2] * stretch[2] - 3.0;
-  meshes::StrainEnergy energy;
+/// G and the shape of a law from coefficients in the order of law_coefficients.
+template <typename Number>
+struct Sized {
+  Number shear_modulus;
+  std::array<Number, 6> shape{};
+};
+template <typename Number>
+Sized<Number> sized(const LawChoice& choice, const std::array<Number, 6>& c) {
+  const std::size_t count = law_coefficients(choice).size();
+  Sized<Number> law{c[0]};
   switch (choice.law) {
-    // dW/dI1 over that of neo-Hooke, 1/2: of C_i (I1 - 3)^i.
-    case RubberLaw::yeoh: return response(energy, 2.0 * double(i + 1) * std::pow(above, double(i)));
+    case RubberLaw::yeoh:
+      law.shear_modulus = 2.0 * c[0];
+      for (std::size_t i = 1; i < count; ++i) law.shape[i - 1] = c[i] / law.shear_modulus;
+      break;
     case RubberLaw::mooney_rivlin:
-      energy.law = RubberLaw::mooney_rivlin;
-      energy.shape[0] = i == 0 ? 0.0 : 1.0;
-      return response(energy, 2.0);
-    case RubberLaw::ogden: {
-      const double mu = c(i - i % 2), alpha = c(i - i % 2 + 1);
-      if (i % 2 == 1) {
-        Three slope = by_exponent(alpha, stretch);
-        for (double& value : slope) value *= mu;
-        return slope;
+      law.shear_modulus = 2.0 * (c[0] + c[1]);
+      law.shape[0] = 2.0 * c[1] / law.shear_modulus;
+      break;
+    case RubberLaw::ogden:
+      for (std::size_t i = 2; i < count; i += 2) law.shear_modulus += c[i];
+      for (std::size_t i = 0; i < count; i += 2) {
+        law.shape[i] = c[i] / law.shear_modulus;
+        law.shape[i + 1] = c[i + 1];
       }
-      energy.law = RubberLaw::ogden;
-      energy.shape = {1.0, alpha};
-      return response(energy, 1.0);
-    }
-    case RubberLaw::gent: {
-      const double left = c(1) - above;  // W' = G/2 Jm/(Jm - (I1 - 3))
-      return response(energy, i == 0 ? c(1) / left : -c(0) * above / (left * left));
-    }
-    default: return response(energy, 1.0);
+      break;
+    case RubberLaw::gent: law.shape[0] = c[1]; break;
+    default: break;
   }
+  return law;
 }
 
 }  // namespace
@@ -89,14 +74,14 @@ const std::vector<LawChoice>& known_laws() {
 
 std::optional<LawChoice> law_named(std::string_view text) {
   for (LawChoice law : known_laws())
-    for (law.branches = 0; law.branches <= most_branches; ++law.branches)
+    for (law.branches = 0; law.branches <= max_branches; ++law.branches)
       if (name(law) == text) return law;
   return std::nullopt;
 }
 
 std::vector<MaterialParameter> coefficients(const LawChoice& choice) {
   using enum MaterialParameter;
-  static_assert(int(relaxation_tau5) - int(relaxation_g1) + 1 == 2 * most_branches);
+  static_assert(int(relaxation_tau5) - int(relaxation_g1) + 1 == 2 * max_branches);
   std::vector<MaterialParameter> all = law_coefficients(choice);
   for (int i = 0; i < 2 * choice.branches; ++i)
     all.push_back(MaterialParameter(int(relaxation_g1) + i));
@@ -129,31 +114,15 @@ std::vector<MaterialParameter> law_coefficients(const LawChoice& choice) {
 }
 
 SizedLaw sized_law(const LawChoice& choice, const VectorXd& c) {
-  SizedLaw law;
-  law.energy.law = choice.law;
-  law.energy.volumetric = meshes::VolumetricLaw::quadratic;
-  double& g = law.shear_modulus;
-  auto& shape = law.energy.shape;
-  const Index count = Index(law_coefficients(choice).size());
-  switch (choice.law) {
-    case RubberLaw::yeoh: g = 2.0 * c(0); break;
-    case RubberLaw::mooney_rivlin: g = 2.0 * (c(0) + c(1)); break;
-    case RubberLaw::ogden:
-      for (Index i = 0; i < count; i += 2) g += c(i);
-      break;
-    default: g = c(0);
-  }
+  std::array<double, 6> all{};
+  std::copy_n(c.data(), law_coefficients(choice).size(), all.begin());
+  const Sized<double> law = sized(choice, all);
+  const double g = law.shear_modulus;
   if (!(g > 0.0) || !std::isfinite(g))
     throw meshes::InvalidInput({"rubber.shear_modulus", meshes::to_text(g) + " Pa",
                                 "the coefficients must make a positive shear modulus",
                                 "give tests that reach small strain"});
-  if (choice.law == RubberLaw::yeoh)
-    for (Index i = 1; i < count; ++i) shape[std::size_t(i - 1)] = c(i) / g;
-  if (choice.law == RubberLaw::mooney_rivlin) shape[0] = 2.0 * c(1) / g;
-  if (choice.law == RubberLaw::ogden)
-    for (Index i = 0; i < count; ++i) shape[std::size_t(i)] = i % 2 == 0 ? c(i) / g : c(i);
-  if (choice.law == RubberLaw::gent) shape[0] = c(1);
-  return law;
+  return {g, {choice.law, meshes::VolumetricLaw::quadratic, law.shape}};
 }
 
 double test_stress(const SizedLaw& law, TestKind kind, StressMeasure measure, double deformation) {
@@ -190,29 +159,36 @@ CurveSlopes LawModel::volume(const VectorXd& parameters) const {
   return result;
 }
 
-void LawModel::add_parts(const SizedLaw& law, const VectorXd& parameters, double deformation,
+void LawModel::add_parts(const VectorXd& parameters, double deformation,
                          Eigen::Ref<Eigen::RowVectorXd> row) const {
-  const Three stretch = principal_stretches(test_.kind, deformation);
-  const auto response = principal_response(law.energy, stretch);
-  if (!std::isfinite(response.energy))
+  using Jet = ceres::Jet<double, 6>;
+  std::array<Jet, 6> c;
+  for (int i = 0; i < int(law_coefficients(choice_).size()); ++i)
+    c[std::size_t(i)] = Jet(parameters(i), i);
+  const Sized<Jet> law = sized(choice_, c);
+  const auto response =
+      principal_response(choice_.law, law.shape, principal_stretches(test_.kind, deformation));
+  if (!std::isfinite(response.energy.a))
     throw meshes::NotConverged("the stretch " + meshes::to_text(deformation) +
                                " is beyond the limit of the gent law");
-  const auto put = [&](Index column, const Three& kirchhoff, double factor) {
-    const auto parts = stress_parts(test_.kind, kirchhoff, deformation);
-    row(column) = factor * parts[0];
-    row(column + 1) = factor * parts[1];
-  };
-  put(0, response.kirchhoff, law.shear_modulus);
-  for (Index i = 0; 2 * i + 3 < row.size(); ++i)
-    put(2 * i + 2, by_coefficient(choice_, parameters, i, stretch), 1.0);
+  std::array<Jet, 3> kirchhoff;
+  for (std::size_t k = 0; k < 3; ++k) kirchhoff[k] = law.shear_modulus * response.kirchhoff[k];
+  for (int column = 0; 2 * column + 1 < row.size(); ++column) {
+    Three tau;
+    for (std::size_t k = 0; k < 3; ++k)
+      tau[k] = column == 0 ? kirchhoff[k].a : kirchhoff[k].v(column - 1);
+    const auto parts = stress_parts(test_.kind, tau, deformation);
+    row(2 * column) = parts[0];
+    row(2 * column + 1) = parts[1];
+  }
 }
 
 PartTable LawModel::equilibrium_parts(const VectorXd& parameters) const {
-  const SizedLaw law = sized_law(choice_, parameters);
+  static_cast<void>(sized_law(choice_, parameters));  // refuses what is no law
   const std::vector<double>& states = course_.states();
   PartTable parts(Index(states.size()), 2 + 2 * Index(law_coefficients(choice_).size()));
   for (std::size_t i = 0; i < states.size(); ++i)
-    add_parts(law, parameters, states[i], parts.row(Index(i)));
+    add_parts(parameters, states[i], parts.row(Index(i)));
   return parts;
 }
 
@@ -239,10 +215,10 @@ CurveSlopes LawModel::evaluate(const VectorXd& parameters) {
   };
   result.value.setZero();
   if (relaxation.empty() || course_.empty()) {
-    const SizedLaw law = sized_law(choice_, parameters);
+    static_cast<void>(sized_law(choice_, parameters));
     PartTable parts(points, 2 + 2 * own);
     for (Index p = 0; p < points; ++p)
-      add_parts(law, parameters, test_.deformation[std::size_t(p)], parts.row(p));
+      add_parts(parameters, test_.deformation[std::size_t(p)], parts.row(p));
     for (Index i = -1; i < own; ++i) add(i, parts, 2 * i + 2, 1.0);
     return result;
   }

@@ -17,10 +17,10 @@
 namespace fingertip::calibration::inline material_tests {
 
 /// Branches of a relaxation that can be fitted.
-inline constexpr int most_branches = 5;
+inline constexpr int max_branches = 5;
 
 /// A law, how many terms of its series it has, yeoh and ogden 1 to 3, the others 1, and how many
-/// branches its relaxation, 0 to `most_branches`.
+/// branches its relaxation, 0 to `max_branches`.
 struct LawChoice {
   meshes::RubberLaw law = meshes::RubberLaw::neo_hookean;
   int terms = 1;
@@ -66,11 +66,11 @@ double test_stress(const SizedLaw& law, TestKind kind, StressMeasure measure, do
 /// enter; d/dK is J - 1.
 double mean_stress(double bulk_modulus, double volume_ratio);
 
-/// A material test as a curve, every stress over a scale of its own. Derivatives are exact: a law
-/// is a sum over its coefficients but for Ogden's exponents and Jm. Where the choice has branches
-/// and the test a path or a rate (RelaxingTest), each of its stress_parts s becomes s + sum b_i
-/// h_i, all moduli relaxing alike: free faces then bear nothing at any time, for K of any size, and
-/// the rest follows (README). A slow test without a rate is one after long times.
+/// A material test as a curve, every stress over a scale of its own. Derivatives are exact
+/// (ceres::Jet). Where the choice has branches and the test a path or a rate (RelaxingTest), each
+/// of its stress_parts s becomes s + sum b_i h_i, all moduli relaxing alike: free faces then bear
+/// nothing at any time, for K of any size, and the rest follows (README). A slow test without a
+/// rate is one after long times.
 class LawModel final : public ForwardModel {
  public:
   /// `scales` > 0, one per point [Pa]. `parameters` are the choice's coefficients, bulk_modulus
@@ -92,7 +92,7 @@ class LawModel final : public ForwardModel {
  private:
   CurveSlopes volume(const Eigen::VectorXd& parameters) const;
   /// Of the deformation at a state; NotConverged beyond the law's limit.
-  void add_parts(const SizedLaw& law, const Eigen::VectorXd& parameters, double deformation,
+  void add_parts(const Eigen::VectorXd& parameters, double deformation,
                  Eigen::Ref<Eigen::RowVectorXd> row) const;
 
   MaterialTest test_;

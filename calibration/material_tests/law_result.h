@@ -13,6 +13,7 @@
 #include "meshes/press/press_response.h"
 #include "meshes/rubber/relaxation.h"
 #include "meshes/rubber/rubber.h"
+#include "meshes/rubber/stability.h"
 
 namespace fingertip::calibration::inline material_tests {
 

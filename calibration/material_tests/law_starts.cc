@@ -22,7 +22,7 @@ namespace {
 /// Beyond it l^alpha is a number without meaning.
 constexpr double largest_exponent = 25.0;
 /// Searches for ogden begin with the best of so many sets of exponents that are drawn.
-constexpr int most_starts = 8, guess_count = 400;
+constexpr int max_starts = 8, guess_count = 400;
 /// A term of so small a share of G is none.
 constexpr double smallest_share = 1e-6;
 
@@ -141,7 +141,7 @@ std::vector<VectorXd> ogden_starts(const ScaledTests& tests, int terms, double g
   std::ranges::stable_sort(guesses, {}, &Guess::misfit);
   std::vector<VectorXd> starts;
   for (const Guess& guess : guesses) {
-    if (int(starts.size()) == most_starts) break;
+    if (int(starts.size()) == max_starts) break;
     // Another valley, or at least another side of this one.
     const bool known = std::ranges::any_of(starts, [&](const VectorXd& start) {
       double apart = 0.0;

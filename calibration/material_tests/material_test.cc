@@ -15,11 +15,11 @@ using meshes::Violation;
 namespace {
 
 /// Beyond it, and its inverse, a deformation is a mistake of units.
-constexpr double most_stretch = 20.0;
+constexpr double max_stretch = 20.0;
 
 bool is_possible(TestKind kind, double deformation) {
-  if (kind == TestKind::simple_shear) return std::abs(deformation) <= most_stretch;
-  return deformation >= 1.0 / most_stretch && deformation <= most_stretch;
+  if (kind == TestKind::simple_shear) return std::abs(deformation) <= max_stretch;
+  return deformation >= 1.0 / max_stretch && deformation <= max_stretch;
 }
 
 bool right_length(std::size_t length, std::size_t points) {

@@ -15,11 +15,11 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int times_per_decade = 2, most_times = 13;
+constexpr int times_per_decade = 2, max_times = 13;
 /// Times are sought so far beyond those that the tests tell of.
 constexpr double beyond = 30.0;
 /// A branch begins with no less, and so does what is left after long times.
-constexpr double least_share = 0.005, least_rest = 0.02;
+constexpr double min_share = 0.005, min_rest = 0.02;
 
 VectorXd law_part(const LawChoice& choice, const VectorXd& coefficients) {
   return coefficients.head(Index(law_coefficients(choice).size()));
@@ -27,7 +27,7 @@ VectorXd law_part(const LawChoice& choice, const VectorXd& coefficients) {
 
 std::vector<double> time_grid(const std::array<double, 2>& times, int branches) {
   const double decades = std::log10(times[1] / times[0]);
-  const int count = std::clamp(int(times_per_decade * decades) + 1, branches, most_times);
+  const int count = std::clamp(int(times_per_decade * decades) + 1, branches, max_times);
   std::vector<double> grid;
   for (int i = 0; i < count; ++i)
     grid.push_back(times[0] * std::pow(10.0, decades * (i + 0.5) / count));
@@ -109,8 +109,8 @@ VectorXd start_of(const LawChoice& choice, const VectorXd& law, const Branches& 
   const Index own = law.size(), count = Index(branches.times.size());
   VectorXd factors = branches.factors;
   const double sum = factors.sum();
-  factors(0) = std::max(factors(0), least_rest * sum);
-  factors.tail(count) = factors.tail(count).cwiseMax(least_share * sum);
+  factors(0) = std::max(factors(0), min_rest * sum);
+  factors.tail(count) = factors.tail(count).cwiseMax(min_share * sum);
   VectorXd start(own + 2 * count);
   const std::vector<MaterialParameter> names = law_coefficients(choice);
   for (Index i = 0; i < own; ++i)
@@ -136,7 +136,7 @@ VectorXd with_branch(const LawChoice& choice, const VectorXd& fewer,
   for (Index i = own; i < own + 2 * (choice.branches - 1); i += 2) left -= fewer(i);
   VectorXd start(own + 2 * choice.branches);
   start.head(start.size() - 2) = fewer.head(start.size() - 2);
-  start.tail(2) << least_share * left, std::sqrt(marks[widest] * marks[widest - 1]);
+  start.tail(2) << min_share * left, std::sqrt(marks[widest] * marks[widest - 1]);
   return sorted_branches(choice, start).value_or(start);
 }
 

@@ -1,10 +1,10 @@
-/// Laws of large strain beyond `network` for packs of cells: what meshes/rubber/hyperelastic_law.h
-/// is for one point, and a bound on the tangent that steps rest on. Formulas:
-/// meshes/rubber/LAWS.md.
+/// Laws of large strain beyond `network` for packs of cells: stress, and a bound on the tangent
+/// that steps rest on. Formulas: meshes/rubber/LAWS.md.
 #pragma once
 
 #include "lattice/kernels/cell_material.h"
 #include "lattice/kernels/pack_algebra.h"
+#include "meshes/rubber/law_terms.h"
 
 namespace fingertip::lattice::inline kernels::kernel {
 
@@ -53,52 +53,24 @@ struct Hyperelastic : PackAlgebra<Pack> {
     return {A.x - B.x, A.y - B.y, A.z - B.z};
   }
 
-  /// m/2 h² and its first two derivatives with ln J.
-  struct Volume {
-    Pack energy, pressure, stiffness;
+  struct Functions : Algebra {
+    [[gnu::always_inline]] static Pack log1p(const Pack& x) { return Algebra::log(Pack(1.0) + x); }
+    [[gnu::always_inline]] static Pack quotient(const Pack& more, const Pack& a, const Pack&) {
+      return more / a;
+    }
+    /// Of the margin of a gent law: forces stay finite until the step is refused.
+    [[gnu::always_inline]] static Pack reciprocal(const Pack& x) {
+      return Pack(1.0) / max(x, Pack(1e-3));
+    }
   };
+  using Slopes = meshes::InvariantSlopes<Pack>;
+  [[gnu::always_inline]] static Slopes slopes(const meshes::StrainEnergy& law, const Pack& x) {
+    return meshes::invariant_slopes<Functions>(law.law, law.shape, x);
+  }
+  using Volume = meshes::VolumetricTerms<Pack>;
   [[gnu::always_inline]] static Volume volume(const CellMaterial& material, const Pack& J,
                                               const Pack& log_J) {
-    const Pack m = material.volumetric;
-    if (material.energy.logarithmic()) return {Pack(0.5) * m * log_J * log_J, m * log_J, m};
-    const Pack h = J - Pack(1.0), stress = m * h * J;
-    return {Pack(0.5) * m * h * h, stress, m * J * (J + h)};
-  }
-
-  /// W/G of a law of invariants, by I1 - 3: with dW/dI1, dW/dI2, d²W/dI1².
-  struct Slopes {
-    Pack energy, first, second, curvature, margin;
-  };
-  [[gnu::always_inline]] static Slopes slopes(const meshes::StrainEnergy& law, const Pack& x) {
-    const Pack half = 0.5, none = 0.0, one = 1.0;
-    switch (law.law) {
-      case Law::yeoh: {
-        const Pack c2 = law.shape[0], c3 = law.shape[1];
-        return {x * (half + x * (c2 + x * c3)), half + x * (Pack(2.0) * c2 + Pack(3.0) * c3 * x),
-                none, Pack(2.0) * c2 + Pack(6.0) * c3 * x, one};
-      }
-      case Law::mooney_rivlin: {
-        const double share = law.shape[0];
-        return {Pack(0.5 * (1.0 - share)) * x, Pack(0.5 * (1.0 - share)), Pack(0.5 * share), none,
-                one};
-      }
-      case Law::gent: {
-        const Pack left = one - x / Pack(law.shape[0]);
-        const Pack inverse = one / max(left, Pack(1e-3));
-        return {Pack(-0.5 * law.shape[0]) * Algebra::log(left), half * inverse, none,
-                half / Pack(law.shape[0]) * inverse * inverse, left};
-      }
-      default: return {half * x, half, none, none, one};
-    }
-  }
-  /// What laws of full invariants have in ln J, over G.
-  [[gnu::always_inline]] static double reaction(const meshes::StrainEnergy& law) {
-    if (law.law == Law::mooney_rivlin) return 1.0 + law.shape[0];
-    if (law.law != Law::ogden) return 1.0;
-    double sum = 0.0;
-    for (int i = 0; i < 6; i += 2)
-      if (law.shape[i] != 0.0) sum += 2.0 * law.shape[i] / law.shape[i + 1];
-    return sum;
+    return meshes::volumetric_terms(material.energy, Pack(material.volumetric), J, log_J);
   }
 
   /// `excess`: mu_h/G q:Omega:q. `T`: F⁻ᵀ.
@@ -112,18 +84,19 @@ struct Hyperelastic : PackAlgebra<Pack> {
     const Pack a = law.isochoric() ? Algebra::exp(Pack(-2.0 / 3.0) * log_J) : Pack(1.0);
     const Slopes d = slopes(law, a * I1 - Pack(3.0));
     const Volume v = volume(m, J, log_J);
-    const Pack first = Pack(2.0) * G * d.first * a, curvature = Pack(4.0) * G * d.curvature * a * a;
-    const Pack second = Pack(2.0) * G * d.second * a * a;
     const bool two = law.law == Law::mooney_rivlin;
     const Symmetric C = right_cauchy_green(F);
-    Pack along = first, I2 = 0.0;
+    Pack I2 = 0.0;
     if (two) {
       const Pack trace = C.xx * C.xx + C.yy * C.yy + C.zz * C.zz +
                          Pack(2.0) * (C.yz * C.yz + C.zx * C.zx + C.xy * C.xy);
       I2 = Pack(0.5) * (square * square - trace) + square * excess * third;
-      along += second * (square + excess * third);
     }
+    const auto [first, second, curvature, inverse] = meshes::invariant_terms(law, G, d, a, I1, I2);
+    Pack along = first;
+    if (two) along += second * (square + excess * third);
     Answer answer;
+    answer.pressure = v.pressure - inverse;
     answer.margin = d.margin;
     answer.modes = (first + second * square * third) / G;
     answer.S = {along, along, along, Pack(0.0), Pack(0.0), Pack(0.0)};
@@ -138,7 +111,6 @@ struct Hyperelastic : PackAlgebra<Pack> {
     Pack normal = bulk, spread = 0.0;
     if (law.isochoric()) {
       const Pack share = Pack(0.5) * first * I1;  // of I1, and of I2 below
-      answer.pressure = v.pressure - Pack(2.0 / 3.0) * share - Pack(2.0 / 3.0) * second * I2;
       const Pack mixed = Pack(2.0 / 3.0) * first;
       spread = mixed * norm(apart(F, T)) +
                max(curvature, Pack(0.0)) *
@@ -154,7 +126,6 @@ struct Hyperelastic : PackAlgebra<Pack> {
         normal += Pack(8.0 / 9.0) * second * I2 - Pack(2.0) * mixed_second;
       }
     } else {
-      answer.pressure = v.pressure - Pack(reaction(law)) * G;
       const Pack stiffer = max(curvature, Pack(0.0));
       wave += stiffer * c;
       all += stiffer * I1;
@@ -206,34 +177,17 @@ struct Hyperelastic : PackAlgebra<Pack> {
         {{v[0][0], v[0][1], v[0][2]}, {v[1][0], v[1][1], v[1][2]}, {v[2][0], v[2][1], v[2][2]}}};
   }
 
-  /// Of an ogden law, over G: sums over its terms of mu, 2 mu/alpha and 2 mu/alpha² times the
-  /// powers of stretches free of the volume where the law is, and of mu l^(alpha - 2) for the
-  /// modes.
-  struct Powers {
-    Pack tau[3], gamma[3], energy, power[3], slope[3], secant[3];
-  };
-  static Powers powers(const meshes::StrainEnergy& law, const Pack (&log_l)[3], const Pack& scale) {
-    Powers p;
-    p.energy = 0.0;
-    Pack inverse[3];
+  /// Of an ogden law; the powers that fluctuations cost are means over the stretches as they are.
+  using Sums = meshes::StretchSums<Pack>;
+  static Sums sums(const meshes::StrainEnergy& law, const Pack (&log_l)[3], const Pack& scale) {
+    Sums s = meshes::stretch_sums<Functions>(law.shape, log_l);
+    const Pack third = Pack(1.0 / 3.0) * scale;
     for (int k = 0; k < 3; ++k) {
-      p.tau[k] = p.gamma[k] = p.power[k] = p.slope[k] = p.secant[k] = 0.0;
-      inverse[k] = Algebra::exp(Pack(-2.0) * log_l[k]);
+      s.power[k] *= third;
+      s.power_slope[k] *= third;
+      s.power_bound[k] *= scale;
     }
-    for (int i = 0; i < 6; i += 2) {
-      const double mu = law.shape[i], alpha = law.shape[i + 1];
-      if (mu == 0.0) continue;
-      for (int k = 0; k < 3; ++k) {
-        const Pack more = Algebra::expm1(Pack(alpha) * log_l[k]), l = Pack(1.0) + more;
-        p.energy += Pack(2.0 * mu / (alpha * alpha)) * more;
-        p.tau[k] += Pack(2.0 * mu / alpha) * l;
-        p.gamma[k] += Pack(2.0 * mu) * l;
-        p.power[k] += Pack(mu / 3.0) * l * inverse[k] * scale;
-        p.slope[k] += Pack(mu / 3.0 * (alpha - 2.0)) * l * inverse[k] * scale;
-        p.secant[k] += Pack(mu < 0.0 ? -mu : mu) * l * inverse[k] * scale;
-      }
-    }
-    return p;
+    return s;
   }
 
   static Answer of_stretches(const CellMaterial& m, const Rows& F, const Pack& J,
@@ -249,22 +203,22 @@ struct Hyperelastic : PackAlgebra<Pack> {
       log_l[k] = Pack(0.5) * Algebra::log(square[k]) - mean;
       root[k] = Pack(1.0) / square[k];
     }
-    Powers p = powers(law, log_l, scale);
+    const Sums p = sums(law, log_l, scale);
     const Volume v = volume(m, J, log_J);
     const Pack chi = p.power[0] + p.power[1] + p.power[2];
     Pack tau[3];
     const Pack tau_mean = third * (p.tau[0] + p.tau[1] + p.tau[2]),
-               slope_mean = third * (p.slope[0] + p.slope[1] + p.slope[2]);
+               slope_mean = third * (p.power_slope[0] + p.power_slope[1] + p.power_slope[2]);
     const Pack half = Pack(0.5) * excess;
     for (int k = 0; k < 3; ++k) {
-      tau[k] = law.isochoric()
-                   ? p.tau[k] - tau_mean + half * (p.slope[k] - slope_mean - Pack(2.0 / 3.0) * chi)
-                   : p.tau[k] + half * p.slope[k];
+      tau[k] = law.isochoric() ? p.tau[k] - tau_mean +
+                                     half * (p.power_slope[k] - slope_mean - Pack(2.0 / 3.0) * chi)
+                               : p.tau[k] + half * p.power_slope[k];
     }
     Answer answer;
     answer.margin = 1.0;
     answer.modes = chi;
-    answer.pressure = v.pressure - (law.isochoric() ? Pack(0.0) : Pack(reaction(law)) * G);
+    answer.pressure = v.pressure;
     const Pack along[3] = {G * tau[0] * root[0], G * tau[1] * root[1], G * tau[2] * root[2]};
     const auto& [x, y, z] = s.axes;
     const auto sum = [&](const Vector& a, const Vector& b) __attribute__((always_inline)) {
@@ -288,7 +242,7 @@ struct Hyperelastic : PackAlgebra<Pack> {
           row += abs(own);
           continue;
         }
-        const Pack secant = G * max(p.secant[k], p.secant[l]), least = -held * product,
+        const Pack secant = G * max(p.power_bound[k], p.power_bound[l]), least = -held * product,
                    most = least + secant * sqrt(square[l] * root[k]);
         row += abs(straight);
         shear = max(shear, secant);
@@ -317,8 +271,11 @@ struct Hyperelastic : PackAlgebra<Pack> {
 
   [[gnu::always_inline]] static Answer answer(const CellMaterial& m, const Rows& F, const Rows& T,
                                               const Pack& J, const Pack& excess) {
-    return m.energy.law == Law::ogden ? of_stretches(m, F, J, excess)
-                                      : of_invariants(m, F, T, J, excess);
+    if (m.energy.law != Law::ogden) return of_invariants(m, F, T, J, excess);
+    // What a call is handed lives in memory: not the F of the other laws.
+    const Rows own = F;
+    const Pack jacobian = J, fluctuation = excess;
+    return of_stretches(m, own, jacobian, fluctuation);
   }
 
   /// Per volume; `margin` as above. `H`: F - 1.
@@ -326,7 +283,6 @@ struct Hyperelastic : PackAlgebra<Pack> {
                      Pack& margin) {
     const meshes::StrainEnergy& law = m.energy;
     const Pack G = m.shear, log_J = Algebra::log(J), third = Pack(1.0 / 3.0);
-    const Pack rest = law.isochoric() ? Pack(0.0) : Pack(reaction(law)) * log_J;
     const Pack volumetric = volume(m, J, log_J).energy;
     if (law.law == Law::ogden) {
       const Spectrum s = spectrum(right_cauchy_green(Algebra::plus_one(H)));
@@ -334,9 +290,9 @@ struct Hyperelastic : PackAlgebra<Pack> {
       const Pack mean = law.isochoric() ? third * log_J : Pack(0.0);
       Pack log_l[3];
       for (int k = 0; k < 3; ++k) log_l[k] = Pack(0.5) * Algebra::log(square[k]) - mean;
-      const Powers p = powers(law, log_l, Algebra::exp(Pack(-2.0) * mean));
+      const Sums p = sums(law, log_l, Algebra::exp(Pack(-2.0) * mean));
       margin = 1.0;
-      return G * (p.energy - rest + Pack(0.5) * excess * (p.power[0] + p.power[1] + p.power[2])) +
+      return G * (p.energy + Pack(0.5) * excess * (p.power[0] + p.power[1] + p.power[2])) +
              volumetric;
     }
     // By C - 1, which does not cancel at small strain.
@@ -346,7 +302,8 @@ struct Hyperelastic : PackAlgebra<Pack> {
                a = Pack(1.0) + less;
     const Slopes d = slopes(law, a * (trace + excess) + Pack(3.0) * less);
     margin = d.margin;
-    Pack sum = d.energy - rest;
+    Pack sum = d.energy;
+    if (!law.isochoric()) sum -= Pack(meshes::log_share(law)) * log_J;
     if (law.law == Law::mooney_rivlin) {
       const Pack squares = D.xx * D.xx + D.yy * D.yy + D.zz * D.zz +
                            Pack(2.0) * (D.yz * D.yz + D.zx * D.zx + D.xy * D.xy);

@@ -21,7 +21,7 @@ struct PronyBranch {
 };
 /// How all branches together have faded.
 struct History {
-  const PronyBranch* fading = nullptr;
+  const PronyBranch* prony = nullptr;
   int branches = 0;
   /// Within an interval the sum of all branches is share times what drives them plus a part that
   /// hardly bends in time: `first` and `second` times what it was made of when they were noted.

@@ -124,9 +124,13 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
     }
     /// Makes of what drives the branches now what they hold.
     [[gnu::always_inline]] void fade(Pack (&values)[remembered]) const {
-      if (!history.held)
-        return history.noted != nullptr ? fade_from_note<true>(values)
-                                        : fade_from_note<false>(values);
+      if (!history.held) {
+        Pack handed[remembered];  // what a call is handed lives in memory: not `values`
+        for (int k = 0; k < remembered; ++k) handed[k] = values[k];
+        history.noted != nullptr ? fade_from_note<true>(handed) : fade_from_note<false>(handed);
+        for (int k = 0; k < remembered; ++k) values[k] = handed[k];
+        return;
+      }
       const int first = 1 + history.branches;
       const Pack share = history.share, before = history.first, after = history.second;
 #pragma GCC unroll 18
@@ -145,7 +149,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
         const Pack now = values[k], change = now - memory.value(0, k);
         Pack sum = 0.0, later = 0.0;
         for (int n = 0; n < own.branches; ++n) {
-          const PronyBranch& f = own.fading[n];
+          const PronyBranch& f = own.prony[n];
           const Pack h = Pack(f.decay) * memory.value(1 + n, k) + Pack(f.gain) * change;
           sum = sum + h;
           if constexpr (!Noting) continue;

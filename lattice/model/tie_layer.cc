@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/rubber/law_terms.h"
+
 namespace fingertip::lattice::inline model {
 
 TieLaw layer_law(const meshes::StrainEnergy& energy, double spacing) {
   const double stretch = 1.0 - layer_depth, across = 1.0 / std::sqrt(stretch);
-  const meshes::PrincipalResponse pressed =
+  const meshes::PrincipalResponse<double> pressed =
       meshes::principal_response(energy, {stretch, across, across});
   const double stress = (pressed.kirchhoff[1] - pressed.kirchhoff[0]) / stretch;  // over G
   const double largest = (stiffest_tie - 1.0) / (3.0 * layer_depth * layer_depth);

@@ -10,6 +10,7 @@
 
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
+#include "meshes/rubber/law_terms.h"
 
 namespace fingertip::meshes::inline rubber {
 namespace {
@@ -46,61 +47,36 @@ struct Terms {
          mixed_second = 0.0, curvature = 0.0;
 };
 
-InvariantSlopes slopes_within_limit(const StrainEnergy& energy, double I1) {
-  const InvariantSlopes d = invariant_slopes(energy, I1 - 3.0);
-  if (energy.law == RubberLaw::gent && std::isinf(d.energy))
-    throw std::domain_error("the gent law is stretched beyond its limit Jm");
-  return d;
-}
-
 double second_invariant(const Matrix3d& F, double I1) {
   return 0.5 * (I1 * I1 - (F.transpose() * F).squaredNorm());
-}
-
-/// What a law of full invariants has in ln J, so that rest is free of stress.
-void add_reaction(Terms& terms, double g, double J) {
-  terms.energy -= g * std::log(J);
-  terms.inverse += g;  // J psi_J = -g, and normal = g - g
 }
 
 /// `excess` adds to I1, and I1/3 times it to I2: so a shear that fluctuates about F costs G at
 /// rest.
 Terms terms_of_invariants(const StrainEnergy& energy, double G, const Matrix3d& F, double J,
                           double excess) {
-  const double square = F.squaredNorm(), I1 = square + excess;
-  const bool two = energy.law == RubberLaw::mooney_rivlin;
+  const double square = F.squaredNorm(), I1 = square + excess,
+               a = energy.isochoric() ? 1.0 / (std::cbrt(J) * std::cbrt(J)) : 1.0;
+  const InvariantSlopes<double> d = invariant_slopes(energy.law, energy.shape, a * I1 - 3.0);
+  if (!(d.margin > 0.0)) throw std::domain_error("the gent law is stretched beyond its limit Jm");
+  const double I2 = energy.law == RubberLaw::mooney_rivlin
+                        ? second_invariant(F, square) + square * excess / 3.0
+                        : 0.0;
+  const InvariantTerms<double> at = invariant_terms(energy, G, d, a, I1, I2);
   Terms t;
+  t.energy = G * (d.energy + d.second * (a * a * I2 - 3.0));
+  t.along = at.first + at.second * excess / 3.0;
+  t.second = at.second;
+  t.inverse = at.inverse;
+  t.curvature = at.curvature;
   if (!energy.isochoric()) {
-    const InvariantSlopes d = slopes_within_limit(energy, I1);
-    t.energy = G * d.energy;
-    t.along = 2.0 * G * d.first;
-    t.second = 2.0 * G * d.second;
-    t.curvature = 4.0 * G * d.curvature;
-    if (two) t.energy += G * d.second * (second_invariant(F, square) + square * excess / 3.0 - 3.0);
-    t.along += t.second * excess / 3.0;
-    add_reaction(t, G * (1.0 + (two ? energy.shape[0] : 0.0)), J);
+    t.energy -= at.inverse * std::log(J);
     return t;
   }
-  const double root = std::cbrt(J), a = 1.0 / (root * root), b = a * a;
-  const InvariantSlopes d = slopes_within_limit(energy, a * I1);
-  const double first = G * d.first * a * I1, curve = G * d.curvature * a * I1;
-  t.energy = G * d.energy;
-  t.along = 2.0 * G * d.first * a;
-  t.curvature = 4.0 * G * d.curvature * a * a;
-  t.inverse = 2.0 / 3.0 * first;
-  t.normal = 4.0 / 9.0 * (curve * a * I1 + first);
-  t.mixed = -4.0 / 3.0 * a * (G * d.first + curve);
-  if (two) {
-    const double I2 = second_invariant(F, square) + square * excess / 3.0,
-                 second = G * d.second * b * I2;
-    t.energy += second - 3.0 * G * d.second;
-    t.second = 2.0 * G * d.second * b;
-    t.inverse += 4.0 / 3.0 * second;
-    t.normal += 16.0 / 9.0 * second;
-    t.mixed_second = -8.0 / 3.0 * G * d.second * b;
-    t.along += t.second * excess / 3.0;
-    t.mixed += t.mixed_second * excess / 3.0;
-  }
+  t.normal =
+      2.0 / 9.0 * at.first * I1 + 1.0 / 9.0 * at.curvature * I1 * I1 + 8.0 / 9.0 * at.second * I2;
+  t.mixed_second = -4.0 / 3.0 * at.second;
+  t.mixed = -2.0 / 3.0 * at.first - 1.0 / 3.0 * at.curvature * I1 + t.mixed_second * excess / 3.0;
   return t;
 }
 
@@ -134,20 +110,17 @@ Matrix3d diagonal_free_of_volume(const Vector3d& diagonal) {
 }
 
 /// What a fluctuation costs: chi/2 excess, chi = sum of mu_i times the mean of l^(alpha_i - 2).
-void add_excess(const StrainEnergy& energy, const Vector3d& logs, double J, double excess,
-                Spectral& s) {
+void add_excess(const StrainEnergy& energy, const StretchSums<double>& sums, const Vector3d& logs,
+                double J, double excess, Spectral& s) {
   const double volume = energy.isochoric() ? std::pow(J, -2.0 / 3.0) : 1.0;
-  double chi = 0.0;
-  Vector3d first = Vector3d::Zero(), second = Vector3d::Zero();
+  const Vector3d first = Vector3d::Map(sums.power_slope) / 3.0,
+                 second = Vector3d::Map(sums.power_curvature) / 3.0;
+  const double chi = (sums.power[0] + sums.power[1] + sums.power[2]) / 3.0;
   for (std::size_t term = 0; term < 3; ++term) {
     const double mu = energy.shape[2 * term] / 3.0, n = energy.shape[2 * term + 1] - 2.0;
-    const Vector3d power = mu * (n * logs).array().exp();
-    chi += power.sum();
-    first += n * power;
-    second += n * n * power;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
-        s.secant(a, b) += 0.5 * excess * volume * n * power[b] *
+        s.secant(a, b) += 0.5 * excess * volume * n * mu * std::exp(n * logs[b]) *
                           divided_difference(n, logs[a] - logs[b]) / (s.stretch[b] * s.stretch[b]);
   }
   Vector3d change = first;
@@ -166,37 +139,33 @@ void add_excess(const StrainEnergy& energy, const Vector3d& logs, double J, doub
   s.change += 0.5 * excess * volume * curvature;
 }
 
-/// W/G; for full stretches with -g ln J, which is tau of (l^alpha - 1).
+/// W/G; for full stretches with -g ln J (StretchSums).
 Spectral spectral_of(const StrainEnergy& energy, const Matrix3d& F, double J, double excess) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(F.transpose() * F);
   Spectral s;
   s.axes = solver.eigenvectors();
   s.stretch = solver.eigenvalues().cwiseSqrt();
-  const double logarithm = std::log(J), mean = energy.isochoric() ? logarithm / 3.0 : 0.0;
+  const double mean = energy.isochoric() ? std::log(J) / 3.0 : 0.0;
   const Vector3d logs = s.stretch.array().log() - mean;
-  Vector3d gamma = Vector3d::Zero();
+  const StretchSums<double> sums = stretch_sums(energy.shape, {logs[0], logs[1], logs[2]});
+  s.energy = sums.energy;
+  s.tau = Vector3d::Map(sums.tau);
+  const Vector3d gamma = Vector3d::Map(sums.gamma);
   for (std::size_t term = 0; term < 3; ++term) {
     const double mu = energy.shape[2 * term], alpha = energy.shape[2 * term + 1];
     if (mu == 0.0) continue;
-    for (int a = 0; a < 3; ++a) {
-      const double more = std::expm1(alpha * logs[a]);
-      s.energy += 2.0 * mu / (alpha * alpha) * more;
-      s.tau[a] += 2.0 * mu / alpha * more;
-      gamma[a] += 2.0 * mu * (more + 1.0);
-      for (int b = 0; b < 3; ++b) {
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
         s.secant(a, b) += 2.0 * mu / alpha * std::exp(alpha * logs[b]) *
                           divided_difference(alpha, logs[a] - logs[b]) /
                           (s.stretch[b] * s.stretch[b]);
-      }
-    }
-    if (!energy.isochoric()) s.energy -= 2.0 * mu / alpha * logarithm;
   }
   s.change = gamma.asDiagonal();
   if (energy.isochoric()) {
     s.tau = free_of_volume(s.tau);
     s.change = diagonal_free_of_volume(gamma);
   }
-  add_excess(energy, logs, J, excess, s);
+  add_excess(energy, sums, logs, J, excess, s);
   return s;
 }
 
@@ -311,21 +280,21 @@ VolumetricMeasure HyperelasticLaw::volumetric(double J) const {
 
 namespace {
 
-void add_volumetric(Terms& terms, const VolumetricMeasure& h, double m, double J) {
-  const double kirchhoff = m * h.value * h.first * J;  // J times the mean stress
-  terms.energy += m / 2 * h.value * h.value;
-  terms.inverse -= kirchhoff;
-  terms.normal += m * (h.first * h.first + h.value * h.second) * J * J + kirchhoff;
+void add_volumetric(Terms& terms, const StrainEnergy& energy, double m, double J) {
+  const VolumetricTerms<double> v = volumetric_terms(energy, m, J, std::log(J));
+  terms.energy += v.energy;
+  terms.inverse -= v.pressure;
+  terms.normal += v.stiffness;
 }
 
 FluctuatingResponse respond(const StrainEnergy& energy, double G, const Matrix3d& F, double m,
-                            const HyperelasticLaw* whole, double excess) {
+                            bool whole, double excess) {
   const Inverse inverse(F);
   const Matrix3d& H = inverse.transposed;
   FluctuatingResponse response;
   if (energy.law == RubberLaw::ogden) {
     Terms terms;
-    if (whole) add_volumetric(terms, whole->volumetric(inverse.J), m, inverse.J);
+    if (whole) add_volumetric(terms, energy, m, inverse.J);
     const Spectral s = spectral_of(energy, F, inverse.J, excess);
     response.energy = terms.energy + G * s.energy;
     response.stress = stress_of(terms, F, H) + G * stress_of(s, s.tau, F);
@@ -340,7 +309,7 @@ FluctuatingResponse respond(const StrainEnergy& energy, double G, const Matrix3d
   response.curvature = 0.25 * terms.curvature;
   response.mixed = (0.5 * terms.curvature + terms.second / 3.0) * F +
                    0.5 * (terms.mixed + terms.mixed_second * (third - excess / 3.0)) * H;
-  if (whole) add_volumetric(terms, whole->volumetric(inverse.J), m, inverse.J);
+  if (whole) add_volumetric(terms, energy, m, inverse.J);
   response.energy = terms.energy;
   response.stress = stress_of(terms, F, H);
   response.tangent = tangent_of(terms, F, H);
@@ -350,15 +319,15 @@ FluctuatingResponse respond(const StrainEnergy& energy, double G, const Matrix3d
 }  // namespace
 
 PointResponse HyperelasticLaw::pointwise(const Matrix3d& F) const {
-  return respond(energy_, shear_modulus_, F, volumetric_modulus_, nullptr, 0.0);
+  return respond(energy_, shear_modulus_, F, volumetric_modulus_, false, 0.0);
 }
 
 PointResponse HyperelasticLaw::complete(const Matrix3d& F) const {
-  return respond(energy_, shear_modulus_, F, volumetric_modulus_, this, 0.0);
+  return respond(energy_, shear_modulus_, F, volumetric_modulus_, true, 0.0);
 }
 
 FluctuatingResponse HyperelasticLaw::fluctuating(const Matrix3d& F, double excess) const {
-  return respond(energy_, shear_modulus_, F, volumetric_modulus_, this, excess);
+  return respond(energy_, shear_modulus_, F, volumetric_modulus_, true, excess);
 }
 
 double HyperelasticLaw::energy(const Matrix3d& F, double excess) const {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "meshes/base/files.h"
+#include "meshes/rubber/stability.h"
 
 namespace fingertip::meshes::inline rubber {
 
@@ -32,7 +33,7 @@ std::vector<Violation> Rubber::violations() const {
   require(std::isfinite(retardation_time) && retardation_time >= 0.0, "rubber.retardation_time",
           retardation_time, "s", "tau must be finite and not negative",
           "give the Kelvin-Voigt retardation time, or 0 for no damping");
-  append(found, energy.violations());
+  append(found, meshes::violations(energy));
   append(found, relaxation.violations());
   return found;
 }

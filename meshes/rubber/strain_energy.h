@@ -3,11 +3,8 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "meshes/base/errors.h"
 #include "meshes/base/names.h"
 
 namespace fingertip::meshes::inline rubber {
@@ -76,52 +73,19 @@ struct StrainEnergy {
            volumetric == VolumetricLaw::isochoric_logarithmic;
   }
   /// What a law of full invariants takes of lambda at rest, over G.
-  double lambda_share() const;
-
-  /// Broken rules of the shape: numbers finite, exponents not 0, Jm > 0, shares that sum to 1,
-  /// stable between the stretches 0.5 and 2.
-  std::vector<Violation> violations() const;
+  double lambda_share() const {
+    switch (law) {
+      case RubberLaw::yeoh: return 8.0 * shape[0];
+      case RubberLaw::mooney_rivlin: return 2.0 * shape[0];
+      case RubberLaw::gent: return 2.0 / shape[0];
+      default: return 0.0;
+    }
+  }
 };
-
-/// W over G of a law of the invariants, at I1 - 3: less its part in I2, which is `second` (I2 - 3),
-/// with dW/dI1, dW/dI2 and d²W/dI1². Infinite energy where a gent law is stretched beyond its
-/// limit.
-struct InvariantSlopes {
-  double energy = 0.0, first = 0.0, second = 0.0, curvature = 0.0;
-};
-InvariantSlopes invariant_slopes(const StrainEnergy& energy, double above);
-
-/// W over G of an incompressible body and its derivatives with respect to the logarithms of the
-/// stretches; `kirchhoff` is known but for a pressure.
-struct PrincipalResponse {
-  double energy = 0.0;
-  std::array<double, 3> kirchhoff{};
-  std::array<std::array<double, 3>, 3> tangent{};
-};
-/// `stretch`: of volume 1. Infinite energy where a gent law is stretched beyond its
-/// limit.
-PrincipalResponse principal_response(const StrainEnergy& energy,
-                                     const std::array<double, 3>& stretch);
-
-/// Tests on sheets: one, two, or one of two directions pulled.
-enum class SheetTest { uniaxial, equibiaxial, planar };
-constexpr auto names_of(SheetTest) {
-  using enum SheetTest;
-  return names<SheetTest>(
-      {{uniaxial, "uniaxial"}, {equibiaxial, "equibiaxial"}, {planar, "planar"}});
-}
-
-/// Where an incompressible law stops being stable (Drucker): dsigma:d(ln l) > 0 for every change
-/// fails.
-struct Instability {
-  SheetTest test = SheetTest::uniaxial;
-  double stretch = 1.0;  ///< along the first direction
-};
-/// The one nearest to rest between the stretches `shortest` < 1 and `longest` > 1.
-std::optional<Instability> first_instability(const StrainEnergy& energy, double shortest,
-                                             double longest);
 
 /// "yeoh, quadratic".
-std::string describe(const StrainEnergy& energy);
+inline std::string describe(const StrainEnergy& energy) {
+  return std::string(name(energy.law)) + ", " + std::string(name(energy.volumetric));
+}
 
 }  // namespace fingertip::meshes::inline rubber

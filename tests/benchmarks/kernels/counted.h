@@ -41,6 +41,7 @@ class Counted {
   Counted operator-() const { return -value_; }
   Counted& operator+=(Counted b) { return *this = *this + b; }
   Counted& operator-=(Counted b) { return *this = *this - b; }
+  Counted& operator*=(Counted b) { return *this = *this * b; }
   friend Counted operator+(Counted a, Counted b) { return counted(a.value_ + b.value_); }
   friend Counted operator-(Counted a, Counted b) { return counted(a.value_ - b.value_); }
   friend Counted operator*(Counted a, Counted b) { return counted(a.value_ * b.value_); }

@@ -164,7 +164,7 @@ TEST(LawFit, UnstableCoefficientsAreToldWithTheirStretch) {
   // which is a tension of 0.735^-2 = 1.85.
   EXPECT_NEAR(fit.unstable_in_tests->stretch, 0.735, 0.001);
   EXPECT_NE(fit.contradictions[0].find("unstable (Drucker) from the stretch"), std::string::npos);
-  EXPECT_FALSE(fit.law.energy.violations().empty());
+  EXPECT_FALSE(meshes::violations(fit.law.energy).empty());
 }
 
 /// Stress `modulus` times strain, nominal, to `strain` from rest, in ten equal steps.

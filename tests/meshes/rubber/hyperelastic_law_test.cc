@@ -1,4 +1,5 @@
 #include "meshes/rubber/hyperelastic_law.h"
+#include "meshes/rubber/law_terms.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@
 
 #include "meshes/base/errors.h"
 #include "meshes/press/fields.h"
+#include "meshes/rubber/stability.h"
 #include "tests/expectations.h"
 
 using namespace fingertip;
@@ -453,7 +455,7 @@ TEST(StrainEnergy, FindsWhereALawStopsBeingStable) {
     change.col(k) = (stresses(logs + step) - stresses(logs - step)) / 2e-5;
   }
   EXPECT_NEAR(change.determinant() / change.squaredNorm(), 0.0, 1e-6);
-  const auto violations = soft.violations();
+  const auto violations = meshes::violations(soft);
   ASSERT_EQ(violations.size(), 1u);
   EXPECT_TRUE(says(violations[0].rule, "stable"));
   EXPECT_EQ(violations[0].key, "rubber.yeoh");

@@ -1,10 +1,11 @@
-#include "meshes/rubber/strain_energy.h"
+#include "meshes/rubber/stability.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "meshes/base/files.h"
+#include "meshes/rubber/law_terms.h"
 
 namespace fingertip::meshes::inline rubber {
 namespace {
@@ -25,7 +26,7 @@ Three logarithms(SheetTest test, double along) {
 
 /// Changes that keep the volume: dl1 and dl2 are free, dl3 = -dl1 - dl2.
 bool stable(const StrainEnergy& energy, const Three& logs) {
-  const PrincipalResponse r =
+  const PrincipalResponse<double> r =
       principal_response(energy, {std::exp(logs[0]), std::exp(logs[1]), std::exp(logs[2])});
   const auto& t = r.tangent;
   if (r.energy == std::numeric_limits<double>::infinity()) return true;  // locked, not soft
@@ -58,21 +59,6 @@ std::optional<double> leaves(const StrainEnergy& energy, SheetTest test, double 
   return std::nullopt;
 }
 
-PrincipalResponse of_ogden(const StrainEnergy& energy, const Three& stretch) {
-  PrincipalResponse r;
-  for (std::size_t term = 0; term < 3; ++term) {
-    const double mu = energy.shape[2 * term], alpha = energy.shape[2 * term + 1];
-    if (mu == 0.0) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double exponent = alpha * std::log(stretch[k]), power = std::exp(exponent);
-      r.energy += 2.0 * mu / (alpha * alpha) * std::expm1(exponent);
-      r.kirchhoff[k] += 2.0 * mu / alpha * power;
-      r.tangent[k][k] += 2.0 * mu * power;
-    }
-  }
-  return r;
-}
-
 /// Where the coefficients stand.
 std::string_view key_of(RubberLaw law) {
   switch (law) {
@@ -86,54 +72,8 @@ std::string_view key_of(RubberLaw law) {
 
 }  // namespace
 
-PrincipalResponse principal_response(const StrainEnergy& energy, const Three& stretch) {
-  if (energy.law == RubberLaw::ogden) return of_ogden(energy, stretch);
-  Three square;
-  std::ranges::transform(stretch, square.begin(), [](double l) { return l * l; });
-  const double I1 = square[0] + square[1] + square[2];
-  const InvariantSlopes d = invariant_slopes(energy, I1 - 3.0);
-  PrincipalResponse r;
-  r.energy = d.energy;
-  for (std::size_t k = 0; k < 3; ++k) {
-    // dI1 = 2 l² d(ln l), dI2 = 2 (I1 - l²) l² d(ln l)
-    r.kirchhoff[k] = 2.0 * square[k] * (d.first + d.second * (I1 - square[k]));
-    for (std::size_t m = 0; m < 3; ++m)
-      r.tangent[k][m] = 4.0 * square[k] * square[m] * (d.curvature + (m == k ? 0.0 : d.second));
-    r.tangent[k][k] += 2.0 * r.kirchhoff[k];
-  }
-  const double I2 = square[0] * square[1] + square[1] * square[2] + square[2] * square[0];
-  r.energy += d.second * (I2 - 3.0);
-  return r;
-}
-
-InvariantSlopes invariant_slopes(const StrainEnergy& energy, double above) {
-  const auto& s = energy.shape;
-  switch (energy.law) {
-    case RubberLaw::yeoh:
-      return {above * (0.5 + above * (s[0] + above * s[1])),
-              0.5 + above * (2.0 * s[0] + 3.0 * above * s[1]), 0.0,
-              2.0 * s[0] + 6.0 * above * s[1]};
-    case RubberLaw::mooney_rivlin:
-      return {0.5 * (1.0 - s[0]) * above, 0.5 * (1.0 - s[0]), 0.5 * s[0], 0.0};
-    case RubberLaw::gent: {
-      const double left = 1.0 - above / s[0];
-      if (!(left > 0.0)) return {std::numeric_limits<double>::infinity(), 0.0, 0.0, 0.0};
-      return {-0.5 * s[0] * std::log1p(-above / s[0]), 0.5 / left, 0.0, 0.5 / (s[0] * left * left)};
-    }
-    default: return {0.5 * above, 0.5, 0.0, 0.0};
-  }
-}
-
-double StrainEnergy::lambda_share() const {
-  switch (law) {
-    case RubberLaw::yeoh: return 8.0 * shape[0];
-    case RubberLaw::mooney_rivlin: return 2.0 * shape[0];
-    case RubberLaw::gent: return 2.0 / shape[0];
-    default: return 0.0;
-  }
-}
-
-std::vector<Violation> StrainEnergy::violations() const {
+std::vector<Violation> violations(const StrainEnergy& energy) {
+  const auto& [law, volumetric, shape] = energy;
   std::vector<Violation> found;
   const auto refuse = [&](const char* key, double value, const char* rule, const char* remedy) {
     found.push_back({key, to_text(value), rule, remedy});
@@ -157,7 +97,7 @@ std::vector<Violation> StrainEnergy::violations() const {
   }
   const bool always_stable = law == RubberLaw::linear || law == RubberLaw::neo_hookean;
   if (!found.empty() || always_stable) return found;
-  if (const auto fails = first_instability(*this, 0.5, 2.0)) {
+  if (const auto fails = first_instability(energy, 0.5, 2.0)) {
     found.push_back(
         {std::string("rubber.") + std::string(key_of(law)), std::string(name(law)),
          "the law must be stable (Drucker) between the stretches 0.5 and 2; it fails at " +
@@ -181,10 +121,6 @@ std::optional<Instability> first_instability(const StrainEnergy& energy, double 
     }
   }
   return nearest;
-}
-
-std::string describe(const StrainEnergy& energy) {
-  return std::string(name(energy.law)) + ", " + std::string(name(energy.volumetric));
 }
 
 }  // namespace fingertip::meshes::inline rubber
