@@ -13,10 +13,10 @@ namespace fingertip::calibration::inline contact_laws {
 namespace {
 
 /// How far beyond the curve the impedance grows, over its depth.
-constexpr double least_width = 1.2, greatest_width = 8.0;
+constexpr double min_width = 1.2, max_width = 8.0;
 /// Impedances below are weak in motion, and near 1 MuJoCo's solver is badly conditioned.
-constexpr double least_impedance = 0.005, greatest_impedance = 0.95;
-constexpr double least_midpoint = 1e-3, greatest_power = 6.0;
+constexpr double min_impedance = 0.005, max_impedance = 0.95;
+constexpr double min_midpoint = 1e-3, max_power = 6.0;
 
 /// ln of the stiffness, both impedances, midpoint, power, width over the depth.
 using Coordinates = std::array<double, 6>;
@@ -62,13 +62,12 @@ SoftContact fitted_soft_contact(const ForceCurve& curve) {
   double least = std::numeric_limits<double>::infinity();
   SoftContact best;
   for (Coordinates x : starts) {
-    const std::array<std::pair<double, double>, 6> bounds = {
-        {{x[0] - 20.0, x[0] + 20.0},
-         {least_impedance, greatest_impedance},
-         {least_impedance, greatest_impedance},
-         {least_midpoint, 1.0 - least_midpoint},
-         {1.0, greatest_power},
-         {least_width, greatest_width}}};
+    const std::array<std::pair<double, double>, 6> bounds = {{{x[0] - 20.0, x[0] + 20.0},
+                                                              {min_impedance, max_impedance},
+                                                              {min_impedance, max_impedance},
+                                                              {min_midpoint, 1.0 - min_midpoint},
+                                                              {1.0, max_power},
+                                                              {min_width, max_width}}};
     ceres::Problem problem;
     for (std::size_t i = 0; i < curve.force.size(); ++i)
       problem.AddResidualBlock(

@@ -27,7 +27,7 @@ constexpr double fine = 0.4, growth = 0.4;
 constexpr double surface_distance = 0.05;
 /// Of Newton's method: unbalanced force over the plane's.
 constexpr double balanced = 1e-8;
-constexpr int most_iterations = 60;
+constexpr int max_iterations = 60;
 /// Of the plane, over the indentation.
 constexpr double smallest_step = 1e-2;
 
@@ -174,7 +174,7 @@ class PressedTetrahedra {
 std::optional<VectorXd> equilibrium(const PressedTetrahedra& body, VectorXd x, double plane) {
   Eigen::SimplicialLLT<Sparse> solver;
   Sparse hessian;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const VectorXd gradient = body.gradient(x, plane, &hessian);
     if (gradient.lpNorm<1>() <= balanced * body.force(x, plane)) return x;
     const double stiff = hessian.diagonal().mean();

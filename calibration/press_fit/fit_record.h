@@ -49,7 +49,7 @@ struct FitRecord {
   std::vector<RigValue> rig;                     ///< of presses over travel
   std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
   std::vector<ScoreTest> lack_of_fit;            ///< gravest first
-  std::vector<Prospect> next;                    ///< further measurements, best first
+  std::vector<MeasurementGain> next;             ///< further measurements, best first
   std::vector<bool> profiled;    ///< per parameter: its interval is the profile's; or empty
   std::vector<Repeats> repeats;  ///< groups of curves
   /// Where repeats scatter, what each leaves with a factor of its own on its force; else empty.

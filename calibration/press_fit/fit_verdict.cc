@@ -72,7 +72,7 @@ void judge_touch(Sentences& found, const FitRecord& record) {
 }
 
 /// Of the loading's work, and of its error: less of a loop is friction of a machine, or noise.
-constexpr double least_gain = 0.02, gain_errors = 3.0;
+constexpr double min_gain = 0.02, gain_errors = 3.0;
 
 /// A way back above the loading gives more work than was done, which no rubber does: position and
 /// force do not belong together, and nothing says that they do on the way down. The area between n
@@ -80,7 +80,7 @@ constexpr double least_gain = 0.02, gain_errors = 3.0;
 void judge_unloading(Sentences& found, const FitRecord& record) {
   for (const Curve& curve : record.curves) {
     const LoadingHistory& course = curve.course;
-    if (!(course.loop < -least_gain)) continue;
+    if (!(course.loop < -min_gain)) continue;
     const double force = *std::ranges::max_element(curve.y) - curve.y.front(),
                  error = 2.0 * (curve.x.back() - curve.x.front()) * course.noise /
                          std::sqrt(double(course.rows));

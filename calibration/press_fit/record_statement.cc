@@ -255,7 +255,7 @@ std::string fit_statement(const FitRecord& record) {
           other_minima(record.fit) + collinearity(record) + assumptions(record) +
           structures(record) + relaxation_words(record) + loops(record) + lack_of_fit(record);
   const std::string next =
-      prospect_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
+      gain_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
   if (!next.empty()) text += " " + next;
   return text;
 }

@@ -53,8 +53,8 @@ double apparent_touch(const Curve& curve, double zero, double compliance, double
 }
 
 Prior compliance_of_blank(const Curve& curve) {
-  constexpr double lowest_of_line = 0.1, least_known = 1e-4;
-  constexpr std::size_t least_forces = 6;
+  constexpr double lowest_of_line = 0.1, min_known = 1e-4;
+  constexpr std::size_t min_forces = 6;
   const double zero = curve.y.front(), largest = *std::ranges::max_element(curve.y) - zero;
   std::vector<double> x, y;
   for (std::size_t i = 0; i < curve.y.size(); ++i)
@@ -64,7 +64,7 @@ Prior compliance_of_blank(const Curve& curve) {
     throw meshes::InvalidInput(
         {"calibration.rig", "blank " + curve.name + ": " + value, rule, remedy});
   };
-  if (x.size() < least_forces)
+  if (x.size() < min_forces)
     refuse(std::to_string(x.size()) + " forces above a tenth of the largest",
            "a line needs six or more", "press the blank again, in smaller steps");
   const auto middle = std::ptrdiff_t(x.size() / 2);
@@ -86,7 +86,7 @@ Prior compliance_of_blank(const Curve& curve) {
                  apart = std::abs(1.0 / lower.slope - 1.0 / upper.slope);
     if (apart > 3.0 * noise) bent = apart / std::sqrt(12.0);
   }
-  return {c, std::max(std::hypot(error, bent), least_known * c)};
+  return {c, std::max(std::hypot(error, bent), min_known * c)};
 }
 
 }  // namespace fingertip::calibration::inline press_fit

@@ -18,12 +18,12 @@ namespace {
 
 constexpr double depth_step = 0.25;  // of ln delta
 constexpr int depth_count = 18;      // from 1.4 % of the deepest on
-constexpr Index most_neighbours = 5;
+constexpr Index max_neighbours = 5;
 
 /// Derivatives of Lagrange's polynomials through the nearest points, at the points: slopes = D
 /// values.
 MatrixXd slope_matrix(const VectorXd& s) {
-  const Index count = s.size(), points = std::min(count, most_neighbours);
+  const Index count = s.size(), points = std::min(count, max_neighbours);
   MatrixXd slopes = MatrixXd::Zero(count, count);
   for (Index at = 0; at < count; ++at) {
     const Index first = std::clamp<Index>(at - points / 2, 0, count - points);
@@ -232,7 +232,7 @@ CurveSlopes RigModel::evaluate(const VectorXd& parameters) {
   const Index count = Index(position_.size());
   CurveSlopes result{VectorXd(count), MatrixXd::Zero(count, parameters_)};
   indentation_ = VectorXd::Zero(count);
-  RelaxingForce fading(branches_, parameters);
+  RelaxingForce relaxing(branches_, parameters);
   const RowVectorXd none = RowVectorXd::Zero(parameters_);
   double before = 0.0;  // delta of the position before, and its derivatives
   RowVectorXd before_slopes = none;
@@ -243,12 +243,12 @@ CurveSlopes RigModel::evaluate(const VectorXd& parameters) {
     if (rig_.drift.place) result.jacobian(i, *rig_.drift.place) = t;
     const double travel = position_[std::size_t(i)] - offset;
     if (!(travel > 0.0)) {
-      fading.reset();
+      relaxing.reset();
       before = 0.0, before_slopes = none;
       continue;
     }
     const Duration duration = loaded_since(std::size_t(i), offset);
-    const RelaxingForce::Step step = fading.step(duration.value);
+    const RelaxingForce::Step step = relaxing.step(duration.value);
     const StepForce force(press, step, before);
     const double delta = indentation_at(force, compliance, travel);
     const StepForce::Point point = force.at(delta);
@@ -273,14 +273,14 @@ CurveSlopes RigModel::evaluate(const VectorXd& parameters) {
     }
     if (rig_.compliance.place) travel_slopes(*rig_.compliance.place) = -point.force;
     const RowVectorXd slopes =
-        (fading.slopes(step, middle, end, duration_slopes) + point.stiffness * travel_slopes) /
+        (relaxing.slopes(step, middle, end, duration_slopes) + point.stiffness * travel_slopes) /
         denominator;
     result.jacobian.row(i) += slopes;
-    if (fading.empty()) continue;
+    if (relaxing.empty()) continue;
     before_slopes = travel_slopes - compliance * slopes;
     end.slopes += point.end.stiffness * before_slopes;
     middle.slopes += 0.5 * point.middle.stiffness * before_slopes;
-    fading.go_on(step, middle, end, duration_slopes);
+    relaxing.go_on(step, middle, end, duration_slopes);
     before = delta;
   }
   return result;

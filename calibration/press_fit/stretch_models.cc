@@ -119,7 +119,7 @@ UniaxialModel::UniaxialModel(std::vector<double> stretches,
                              const meshes::Rubber& rubber)
     : stretches_(std::move(stretches)), law_(std::move(parameters), rubber) {
   for (const double stretch : stretches_)
-    if (!(stretch >= least_stretch && stretch <= largest_stretch))
+    if (!(stretch >= min_stretch && stretch <= largest_stretch))
       throw InvalidInput({"stretch", to_text(stretch), "a stretch lies between 0.01 and 100",
                           "give length over length at rest, 1 for the bar at rest"});
 }

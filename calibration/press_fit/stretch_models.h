@@ -14,7 +14,7 @@
 namespace fingertip::calibration::inline press_fit {
 
 /// Lengths over the length at rest that a bar of this law is asked for.
-inline constexpr double least_stretch = 0.01, largest_stretch = 100.0;
+inline constexpr double min_stretch = 0.01, largest_stretch = 100.0;
 
 /// G and lambda as functions of free parameters: youngs_modulus and shear_modulus, or lame_shear
 /// and lambda; or modulus. One that is not free is the given rubber's.

@@ -222,7 +222,7 @@ std::vector<CurveSlopes> CurveResiduals::evaluate(const Eigen::VectorXd& paramet
 
 const Linearisation& CurveResiduals::told(const Known& known) {
   const double loss = 0.5 * with_loss(known.linearisation).residuals.squaredNorm();
-  if (loss < least_loss_) least_ = known.parameters, least_loss_ = loss;
+  if (loss < min_loss_) least_ = known.parameters, min_loss_ = loss;
   return known.linearisation;
 }
 

@@ -65,8 +65,8 @@ class CurveResiduals {
   /// So many evaluations, those of the past included, may be made; without limit at first.
   void allow(int evaluations) { allowed_ = evaluations; }
   /// Where, of all points evaluated or asked for again since forget_least(), the loss was least.
-  std::pair<Eigen::VectorXd, double> least() const { return {least_, least_loss_}; }
-  void forget_least() { least_loss_ = std::numeric_limits<double>::infinity(); }
+  std::pair<Eigen::VectorXd, double> least() const { return {least_, min_loss_}; }
+  void forget_least() { min_loss_ = std::numeric_limits<double>::infinity(); }
   /// Slope of the loss by half the squared residual: 1 for least squares and for priors.
   Eigen::VectorXd weights(const Linearisation& linearisation) const;
   /// Rows such that half their squared sum is the loss.
@@ -98,7 +98,7 @@ class CurveResiduals {
   double prior_weight_ = 1.0;  ///< of their rows, in the unit of the residuals
   int evaluations_ = 0, allowed_ = std::numeric_limits<int>::max();
   Eigen::VectorXd least_;
-  double least_loss_ = std::numeric_limits<double>::infinity();
+  double min_loss_ = std::numeric_limits<double>::infinity();
   std::list<Known> known_;  ///< latest first
 };
 

@@ -54,9 +54,9 @@ MatrixXd whitened(const Observations& seen) {
 }
 
 /// ln of the geometric mean of the first `count`.
-double mean_gain(const Prospect& prospect, std::size_t count) {
-  const Index n = std::min<Index>(Index(count), prospect.times.size());
-  return n == 0 ? -1.0 : prospect.times.head(n).array().log().mean();
+double mean_gain(const MeasurementGain& entry, std::size_t count) {
+  const Index n = std::min<Index>(Index(count), entry.times.size());
+  return n == 0 ? -1.0 : entry.times.head(n).array().log().mean();
 }
 
 }  // namespace
@@ -90,17 +90,17 @@ std::vector<CollinearPair> nearly_collinear(const MatrixXd& covariance) {
   return pairs;
 }
 
-void sort_prospects(std::vector<Prospect>& prospects, std::size_t decisive) {
-  std::ranges::stable_sort(prospects, std::greater<>(),
-                           [&](const Prospect& each) { return mean_gain(each, decisive); });
+void sort_by_gain(std::vector<MeasurementGain>& gains, std::size_t decisive) {
+  std::ranges::stable_sort(gains, std::greater<>(),
+                           [&](const MeasurementGain& each) { return mean_gain(each, decisive); });
 }
 
-std::vector<NextEntry> next_entries(const std::vector<Prospect>& prospects,
+std::vector<NextEntry> next_entries(const std::vector<MeasurementGain>& gains,
                                     const std::vector<std::string>& labels,
                                     const Eigen::VectorXd& at, const Eigen::VectorXd& lower,
                                     const Eigen::VectorXd& upper) {
   std::vector<NextEntry> entries;
-  for (const Prospect& each : prospects) {
+  for (const MeasurementGain& each : gains) {
     NextEntry& entry = entries.emplace_back(NextEntry{each.name, each.press, {}, each.failure});
     for (Eigen::Index i = 0; i < each.times.size(); ++i) {
       const double times = each.times(i);
@@ -111,10 +111,10 @@ std::vector<NextEntry> next_entries(const std::vector<Prospect>& prospects,
   return entries;
 }
 
-std::string prospect_statement(const std::vector<Prospect>& sorted,
-                               const std::vector<std::string>& labels, std::size_t decisive) {
+std::string gain_statement(const std::vector<MeasurementGain>& sorted,
+                           const std::vector<std::string>& labels, std::size_t decisive) {
   if (sorted.empty() || sorted.front().times.size() == 0) return "";
-  const Prospect& best = sorted.front();
+  const MeasurementGain& best = sorted.front();
   constexpr double worth_it = 1.1;
   const Eigen::Index asked = std::min<Index>(Index(decisive), best.times.size());
   std::string names, gains;

@@ -39,7 +39,7 @@ inline constexpr double much_wider = 3.0;
 std::vector<CollinearPair> nearly_collinear(const Eigen::MatrixXd& covariance);
 
 /// A measurement that is not made yet, beside those that are.
-struct Prospect {
+struct MeasurementGain {
   std::string name;       ///< "ball"
   std::string press;      ///< for people: contact, obstacle, depth, number of values
   Eigen::VectorXd times;  ///< per parameter: so many times narrower its interval would be, >= 1
@@ -48,16 +48,16 @@ struct Prospect {
 
 /// Best first: by the geometric mean of `times` of the first `decisive` parameters, what failed
 /// last.
-void sort_prospects(std::vector<Prospect>& prospects, std::size_t decisive);
+void sort_by_gain(std::vector<MeasurementGain>& gains, std::size_t decisive);
 
 /// As entries of a file: the 95 % intervals, now from `lower` to `upper` about `at`, after each.
-std::vector<NextEntry> next_entries(const std::vector<Prospect>& prospects,
+std::vector<NextEntry> next_entries(const std::vector<MeasurementGain>& gains,
                                     const std::vector<std::string>& labels,
                                     const Eigen::VectorXd& at, const Eigen::VectorXd& lower,
                                     const Eigen::VectorXd& upper);
 
 /// A sentence on the best one, for the `labels` of the parameters; empty where there is none.
-std::string prospect_statement(const std::vector<Prospect>& sorted,
-                               const std::vector<std::string>& labels, std::size_t decisive);
+std::string gain_statement(const std::vector<MeasurementGain>& sorted,
+                           const std::vector<std::string>& labels, std::size_t decisive);
 
 }  // namespace fingertip::calibration::inline statistics

@@ -97,7 +97,8 @@ ScoreTest score_test(const CurveFit& before, const CurveFit& after, const Omitte
   return result(what, after.estimates(after.estimates.size() - 1), decrease, before);
 }
 
-VectorXd fading(const VectorXd& forces, const std::vector<double>& times, double constant) {
+VectorXd relaxation_change(const VectorXd& forces, const std::vector<double>& times,
+                           double constant) {
   if (forces.size() != Index(times.size()))
     throw meshes::InvalidInput({"effects.times", std::to_string(times.size()) + " values",
                                 "every force has its time", "give one for each"});
@@ -124,7 +125,7 @@ double fading_of(const LoadingHistory& course, const VectorXd& forces, const std
     both << forces, forces.reverse();
     std::vector<double> when = times;
     for (Index k = count; k-- > 0;) when.push_back(2.0 * times.back() - times[std::size_t(k)]);
-    const VectorXd change = fading(both, when, constant);
+    const VectorXd change = relaxation_change(both, when, constant);
     double done = 0.0, faded = 0.0, lost = 0.0;
     for (Index k = 1; k < count; ++k) {
       const double dx = x[std::size_t(k)] - x[std::size_t(k - 1)];
@@ -138,7 +139,8 @@ double fading_of(const LoadingHistory& course, const VectorXd& forces, const std
   }
   if (course.relaxation > 0.0 && course.hold_time > 0.0) {
     // relaxation = w alive fades / (1 + w (alive - 1))
-    const double alive = 1.0 + fading(forces, times, constant)(count - 1) / forces(count - 1),
+    const double alive = 1.0 +
+                         relaxation_change(forces, times, constant)(count - 1) / forces(count - 1),
                  fades = -std::expm1(-course.hold_time / constant);
     weight =
         std::max(weight, course.relaxation / (alive * fades - course.relaxation * (alive - 1.0)));

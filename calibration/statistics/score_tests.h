@@ -47,8 +47,8 @@ ScoreTest score_test(const CurveFit& before, const CurveFit& after, const Omitte
 /// rubber's moduli: ∫ (exp(-(t-s)/c) - 1) dF(s) (Lee & Radok 1960; F straight between its values,
 /// and what there is at the first one as if just applied). Throws InvalidInput for lists of other
 /// lengths.
-Eigen::VectorXd fading(const Eigen::VectorXd& forces, const std::vector<double>& times,
-                       double constant);
+Eigen::VectorXd relaxation_change(const Eigen::VectorXd& forces, const std::vector<double>& times,
+                                  double constant);
 
 /// The weight of that branch that would make the loop or the fall in a hold which the curve's
 /// course tells, whichever needs more; 0 where it tells neither. The way back is taken as quick as

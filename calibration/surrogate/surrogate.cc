@@ -26,7 +26,7 @@ struct Cubic {
     return u * u * s0 + 2.0 * u * t * middle() + t * t * s1;
   }
   /// Least slope, at an end or where the quadratic turns.
-  double least_slope() const {
+  double min_slope() const {
     const double m = middle(), bend = s0 - 2.0 * m + s1;
     const double turn = bend > 0.0 ? (s0 - m) / bend * h : -1.0;
     const double ends = std::min(s0, s1);
@@ -72,9 +72,9 @@ std::vector<Violation> SurrogateTable::violations() const {
   if (!found.empty()) return found;
   const double round_off = 1e-9 * force.back() / knots.back();
   for (std::size_t k = 0; k + 1 < n; ++k)
-    require(cubic(*this, k).least_slope() >= -round_off &&
-                force[k + 1] >= force[k] - 1e-9 * force.back(),
-            "force", k, force[k], "the force must not fall between its knots");
+    require(
+        cubic(*this, k).min_slope() >= -round_off && force[k + 1] >= force[k] - 1e-9 * force.back(),
+        "force", k, force[k], "the force must not fall between its knots");
   return found;
 }
 

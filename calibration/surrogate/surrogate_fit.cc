@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 using meshes::to_text;
 
 constexpr double quantile = 1.959963984540054;  ///< of the normal distribution, 97.5 %
-constexpr double least_slope = 1e-6;            ///< over the mean slope
+constexpr double min_slope = 1e-6;              ///< over the mean slope
 /// Weight of the curvature of F' against the residuals: suits the static lattice from R/6 to R/12.
 constexpr double smoothing = 3e-7;
 constexpr int knot_intervals = 12;  ///< measured on presses (README)
@@ -122,7 +122,7 @@ VectorXd fitted(const SlopeBasis& basis, const Scaled& s) {
   for (Index i = 0; i < m; ++i) rows.row(i) = basis.integral(s.place(i)) / s.unit(i);
   wanted.head(m) = s.force.cwiseQuotient(s.unit);
   rows.bottomRows(penalty.rows()) = std::sqrt(double(m) * smoothing) * penalty;
-  VectorXd least = VectorXd::Constant(size, least_slope);
+  VectorXd least = VectorXd::Constant(size, min_slope);
   least(0) = 0.0;
   return least + non_negative_least_squares(rows, wanted - rows * least);
 }

@@ -9,12 +9,14 @@
 
 #include "fem_reference/job/processes.h"
 #include "meshes/base/errors.h"
+#include "meshes/base/files.h"
 #include "meshes/press/no_equilibrium.h"
 #include "meshes/tables/fields_json.h"
 
 namespace fingertip::fem_reference::inline runs {
 namespace {
 
+using meshes::to_text;
 using nlohmann::ordered_json;
 
 double peak_memory() {

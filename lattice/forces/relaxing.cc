@@ -31,7 +31,7 @@ RelaxingMemory::RelaxingMemory(const LatticeModel& model) {
 }
 
 kernel::History find_history(const LatticeModel& model, const RelaxingMemory& memory, double time,
-                             bool may_hold, std::vector<kernel::PronyBranch>& fading) {
+                             bool may_hold, std::vector<kernel::PronyBranch>& prony) {
   const meshes::Relaxation& relaxation = model.relaxation;
   double shortest = std::numeric_limits<double>::infinity();
   for (const auto& branch : relaxation.branches) shortest = std::min(shortest, branch.time);
@@ -42,16 +42,16 @@ kernel::History find_history(const LatticeModel& model, const RelaxingMemory& me
   history.first = 1.0 - history.second;
   history.branches = int(relaxation.branches.size());
   history.values = memory.cells.empty() ? nullptr : memory.cells.data();
-  fading.clear();
+  prony.clear();
   for (std::size_t n = 0; n < relaxation.branches.size(); ++n) {
     const double own = relaxation.branches[n].time, b = relaxation.relative_modulus(n);
     const meshes::PronyRecursion now(passed, own), later(length, own);
-    fading.push_back({now.decay, b * now.gain, later.decay});
+    prony.push_back({now.decay, b * now.gain, later.decay});
     history.share += b * now.gain;
     history.gain_now += b;
     history.gain_later += b * later.gain;
   }
-  history.fading = fading.data();
+  history.prony = prony.data();
   return history;
 }
 
@@ -77,7 +77,7 @@ void add_lags(const LatticeModel& model, const RelaxingMemory& memory,
     double change[lanes], total[lanes] = {}, later[lanes] = {};
     for (std::size_t i = 0; i < lanes; ++i) change[i] = u[i] - before[i];
     for (std::size_t n = 0; n < branches; ++n) {
-      const kernel::PronyBranch f = history.fading[n];
+      const kernel::PronyBranch f = history.prony[n];
       const double* h = memory.lag[n].component[c].data() + first;
       double now[lanes];
       for (std::size_t i = 0; i < lanes; ++i) {
@@ -110,8 +110,8 @@ BranchEnergy branch_energy(const LatticeModel& model, const RelaxingMemory& memo
   if (memory.lag.empty()) return energy;
   for (std::size_t n = 0; n < model.relaxation.branches.size(); ++n) {
     const double own = model.relaxation.branches[n].time, b = model.relaxation.relative_modulus(n);
-    const meshes::PronyRecursion fading(time - memory.time, own);
-    const double decay = fading.decay, gain = fading.gain * b;
+    const meshes::PronyRecursion recursion(time - memory.time, own);
+    const double decay = recursion.decay, gain = recursion.gain * b;
     team.split(model.blocks.size(), lagging_at_once, [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = 0; c < 3; ++c) {
         const double *u = state.displacement.component[c].data(),

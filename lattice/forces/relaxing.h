@@ -30,9 +30,9 @@ struct RelaxingMemory {
 
 /// How the branches have faded from `memory` to a time not before its own, for a constant rate of
 /// what drives them; exact, unless it `may_hold` and was noted so lately that what all of them hold
-/// together can be told from one straight line. `fading` is where it keeps what it points to.
+/// together can be told from one straight line. `prony` is where it keeps what it points to.
 kernel::History find_history(const LatticeModel& model, const RelaxingMemory& memory, double time,
-                             bool may_hold, std::vector<kernel::PronyBranch>& fading);
+                             bool may_hold, std::vector<kernel::PronyBranch>& prony);
 
 /// At small strain: sum += b d of every branch at a state. `noted`: the memory itself, which is
 /// brought to that state but for its time, or null. Allocates nothing.

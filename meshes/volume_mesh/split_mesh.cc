@@ -27,7 +27,7 @@ constexpr double growth = 0.5;
 /// Distance of the tetrahedra's surface from the finger's, over the usual size.
 constexpr double surface_distance = 0.1;
 /// Where a corner's Jacobian is less, of a cube 1, sizes shrink by `smaller`.
-constexpr double least_jacobian = 0.05, smaller = 0.7;
+constexpr double min_jacobian = 0.05, smaller = 0.7;
 constexpr int max_attempts = 24;
 /// Where that does not help, all is begun anew with sizes smaller by this.
 constexpr double smaller_everywhere = 0.85;
@@ -133,7 +133,7 @@ class Splitting {
   std::set<Simplex> to_flatten() const {
     std::set<int> bad;
     for (const auto& hexahedron : mesh_.hexahedra)
-      if (worst_corner(mesh_, hexahedron) < least_jacobian)
+      if (worst_corner(mesh_, hexahedron) < min_jacobian)
         bad.insert(hexahedron.begin(), hexahedron.end());
     std::set<Simplex> found;
     for (const auto& [corners, number] : numbers_)
@@ -262,7 +262,7 @@ class Sizes {
 std::vector<Vector3> bad_places(const HexahedralMesh& mesh) {
   std::vector<Vector3> places;
   for (const auto& hexahedron : mesh.hexahedra) {
-    if (worst_corner(mesh, hexahedron) >= least_jacobian) continue;
+    if (worst_corner(mesh, hexahedron) >= min_jacobian) continue;
     places.push_back(Vector3::Zero());
     for (const int node : hexahedron) places.back() += mesh.nodes[std::size_t(node)] / 8.0;
   }

@@ -19,7 +19,7 @@ namespace fingertip::studies::inline bench {
 namespace {
 
 constexpr double enough_time = 4.0;  // for the runs of one press [s]
-constexpr int most_runs = 5;
+constexpr int max_runs = 5;
 
 /// The fastest of several runs of one press: whatever else the machine does makes them slower.
 struct Timing {
@@ -41,7 +41,7 @@ struct Timing {
 
 /// Short presses run again: they are what a machine's other work falsifies most.
 int runs_of(const lattice::PressOutcome& first) {
-  return std::clamp(int(enough_time / first.wall_time), 1, most_runs);
+  return std::clamp(int(enough_time / first.wall_time), 1, max_runs);
 }
 
 void run_pace(lattice::PressSetup setup, int threads, const std::filesystem::path& folder,

@@ -86,7 +86,7 @@ LawInput laws_of(const LoadedConfig& loaded, const CaseRun& run) {
   return input;
 }
 
-/// Continua first, then the longest, so that the lanes end together.
+/// Continua first, then the longest, so that the workers end together.
 void sort(std::vector<PlannedJob>& jobs) {
   std::ranges::stable_sort(jobs, std::greater(), [](const PlannedJob& planned) {
     return std::pair(planned.job.kind == "reference", planned.job.weight);

@@ -26,7 +26,7 @@ constexpr double calm = 0.3, longest_step = 1e-3;
 /// at most 1/servo of the indentation, and at full depth the force by 1/servo.
 constexpr double servo = 300.0;
 constexpr double vertex_impedance = 0.9;  ///< of a flex's contacts, constant
-constexpr double least_damping = 1e-4;    ///< of a flex [s]; without any it would ring for ever
+constexpr double min_damping = 1e-4;      ///< of a flex [s]; without any it would ring for ever
 
 /// Of a flex; what an older version says of it.
 constexpr const char* needed =
@@ -132,7 +132,7 @@ std::string flex_model(const LoadedConfig& loaded, const ContactCurve& curve,
                 fmt::arg("friction", friction_of(loaded)), fmt::arg("solref", solref(k)),
                 fmt::arg("impedance", vertex_impedance), fmt::arg("young", moduli.young),
                 fmt::arg("poisson", moduli.poisson),
-                fmt::arg("damping", std::max(rubber.retardation_time, least_damping)),
+                fmt::arg("damping", std::max(rubber.retardation_time, min_damping)),
                 fmt::arg("held", flex.held()));
 }
 

@@ -7,7 +7,7 @@ namespace fingertip::studies::inline live {
 
 namespace {
 
-constexpr double least_acceleration = 0.5;  // [m/s²]
+constexpr double min_acceleration = 0.5;  // [m/s²]
 constexpr double landing_periods = 3.0;
 constexpr double negligible = 1e-10;  // [m]
 
@@ -24,7 +24,7 @@ void MovingSetPoint::want(double speed, double goal) {
 }
 
 double MovingSetPoint::acceleration_limit() const {
-  return std::max(least_acceleration, speed_ * speed_ / clearance_);
+  return std::max(min_acceleration, speed_ * speed_ / clearance_);
 }
 
 void MovingSetPoint::plan() {

@@ -110,7 +110,7 @@ void LiveServer::stop() {
 void LiveServer::start(int port) {
   mg_init_library(0);
   const std::string where = fmt::format("127.0.0.1:{}", port);
-  const std::string threads = std::to_string(3 * most_clients);
+  const std::string threads = std::to_string(3 * max_clients);
   const char* options[] = {"listening_ports",
                            where.c_str(),
                            "num_threads",
@@ -177,7 +177,7 @@ bool LiveServer::refuse(mg_connection* connection) {
     return true;
   }
   const std::lock_guard lock(mutex_);
-  if (stopping_ || int(clients_.size()) >= most_clients) {
+  if (stopping_ || int(clients_.size()) >= max_clients) {
     mg_send_http_error(connection, 503, "%s", "too many pages are connected");
     return true;
   }
@@ -199,7 +199,7 @@ void LiveServer::greet(mg_connection* connection) {
   {
     const std::lock_guard lock(mutex_);
     // A crowd that comes at once may find the last place free together.
-    full = int(clients_.size()) >= most_clients;
+    full = int(clients_.size()) >= max_clients;
     if (!full) clients_.emplace(connection, us);
   }
   if (full) {

@@ -19,7 +19,7 @@ namespace fingertip::studies::inline live {
 
 /// Websockets at a time; another one is refused with 503. Twice as many plain requests are served
 /// beside them.
-inline constexpr int most_clients = 32;
+inline constexpr int max_clients = 32;
 
 /// Serves the page at url(), streams frames, and passes messages on to the simulation. A client
 /// gets a frame only after it has acknowledged the one before, so a slow one is sent less and never

@@ -9,8 +9,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t most_orders = 256;
-constexpr std::size_t most_rows = 60000;
+constexpr std::size_t max_orders = 256;
+constexpr std::size_t max_rows = 60000;
 constexpr auto frame_interval = 33ms;
 constexpr auto pace_window = 500ms;
 /// Further behind the wanted speed than this is not caught up.
@@ -46,7 +46,7 @@ void Simulation::stop() {
 bool Simulation::post(const LiveMessage& message) {
   {
     const std::lock_guard lock(mutex_);
-    if (orders_.size() >= most_orders) return false;
+    if (orders_.size() >= max_orders) return false;
     orders_.push_back(message);
   }
   wake_.notify_all();
@@ -175,7 +175,7 @@ void Simulation::advance() {
   }
   const std::lock_guard lock(mutex_);
   rows_.push_back(rig_.row());
-  if (rows_.size() > most_rows) {
+  if (rows_.size() > max_rows) {
     rows_.pop_front();
     ++first_row_;
   }

@@ -22,7 +22,7 @@ using meshes::Vector3;
 namespace {
 
 /// Larger arrays than this are no surface to look at [bytes].
-constexpr std::size_t most_bytes = 512UL << 20U;
+constexpr std::size_t max_bytes = 512UL << 20U;
 constexpr int vtk_hexahedron = 12;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& rule) {
@@ -106,7 +106,7 @@ class VtuFile {
   /// and then the blocks, each of both in base64 with a padding of its own.
   std::string inflated(std::string_view encoded) const {
     const auto count = numbers_in<std::uint32_t>(decode_base64(encoded.substr(0, 8)));
-    if (count.empty() || count[0] > most_bytes / 64) refuse(name_, "an array's header is damaged");
+    if (count.empty() || count[0] > max_bytes / 64) refuse(name_, "an array's header is damaged");
     const std::size_t header_bytes = 4 * (3 + std::size_t(count[0]));
     const std::size_t header_text = (header_bytes + 2) / 3 * 4;
     if (header_text > encoded.size()) refuse(name_, "an array's header is damaged");
@@ -119,7 +119,7 @@ class VtuFile {
       const bool last = block + 1 == count[0] && header[2] != 0;
       uLongf size = last ? header[2] : header[1];
       const std::size_t from = bytes.size();
-      if (from + size > most_bytes || at + header[3 + block] > packed.size())
+      if (from + size > max_bytes || at + header[3 + block] > packed.size())
         refuse(name_, "an array is cut off");
       bytes.resize(from + size);
       const int result =

@@ -62,8 +62,8 @@ std::vector<Hold> holds_in(const std::vector<CurveRow>& rows, double width) {
   if (counts.empty()) return {};
   const auto middle = counts.begin() + std::ptrdiff_t(counts.size() / 2);
   std::ranges::nth_element(counts, middle);
-  const std::size_t usual = *middle, least_count = std::max(hold_rows, hold_share * usual);
-  std::erase_if(stretches, [&](const Hold& h) { return h.end - h.first < least_count; });
+  const std::size_t usual = *middle, min_count = std::max(hold_rows, hold_share * usual);
+  std::erase_if(stretches, [&](const Hold& h) { return h.end - h.first < min_count; });
   // At its begin the machine still moves.
   for (Hold& hold : stretches) hold.first = arrival(rows, hold);
   // Dense rows on the way are no hold.
@@ -91,7 +91,7 @@ double force_on_arrival(const std::vector<CurveRow>& rows, std::size_t arrival) 
   return mean_force(rows, arrival, std::min(arrival + 1, 1 + rows.size() / dense));
 }
 
-constexpr std::size_t most_shown = 100;
+constexpr std::size_t max_shown = 100;
 
 /// Force over the time since the machine has arrived, thinned to what a figure shows: evenly in the
 /// logarithm of time, in which a force falls evenly.
@@ -105,7 +105,7 @@ void keep_hold(const std::vector<CurveRow>& rows, std::size_t arrival, std::size
     if (time < next && i + 1 < end) continue;
     course.held_time.push_back(time);
     course.held_y.push_back(rows[i].y);
-    next = std::max(time * std::pow(1e4, 1.0 / most_shown), time + 1e-4 * span);
+    next = std::max(time * std::pow(1e4, 1.0 / max_shown), time + 1e-4 * span);
   }
 }
 
@@ -145,7 +145,7 @@ std::string loop_words(const calibration::LoadingHistory& course) {
 /// The unloading, thinned to what a figure shows.
 void keep_way_back(const std::vector<CurveRow>& rows, std::size_t first,
                    calibration::LoadingHistory& course) {
-  const std::size_t step = std::max<std::size_t>(1, (rows.size() - first) / most_shown);
+  const std::size_t step = std::max<std::size_t>(1, (rows.size() - first) / max_shown);
   for (std::size_t i = first; i < rows.size(); i += step) {
     course.back_x.push_back(rows[i].x);
     course.back_y.push_back(rows[i].y);
@@ -159,7 +159,7 @@ std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::LoadingHi
   if (rows.empty()) return rows;
   // The first row that deep: the noise of a hold must not choose the turn.
   const auto [least, largest] = std::ranges::minmax_element(rows, {}, &CurveRow::x);
-  const double width = (largest->x - least->x) / double(most_rows), close = largest->x - width;
+  const double width = (largest->x - least->x) / double(max_rows), close = largest->x - width;
   const auto turn = std::ranges::find_if(rows, [&](const CurveRow& row) { return row.x >= close; });
   auto last = turn;
   while (last + 1 != rows.end() && (last + 1)->x > last->x) ++last;

@@ -12,7 +12,7 @@ namespace fingertip::studies::inline measurements {
 namespace {
 
 /// Share of the largest x that the rows must span to be told apart in bins.
-constexpr double least_range = 1e-6;
+constexpr double min_range = 1e-6;
 
 std::string how_to_split(const Abscissa& abscissa) {
   return abscissa.name == "indentation" || abscissa.is_travel
@@ -89,7 +89,7 @@ std::pair<calibration::Curve, std::vector<Bin>> means(const std::vector<CurveRow
 /// single rows by twice that: of a million rows with noise some always lie far off.
 bool climbs(const std::vector<CurveRow>& rows, double width, const Abscissa& abscissa,
             FileProblems& problems) {
-  const std::size_t size = std::max<std::size_t>(1, rows.size() / (5 * most_rows));
+  const std::size_t size = std::max<std::size_t>(1, rows.size() / (5 * max_rows));
   CurveRow highest;  // x: the largest mean; line: where its block begins
   highest.x = -std::numeric_limits<double>::infinity();
   for (std::size_t first = 0; first < rows.size(); first += size) {
@@ -104,7 +104,7 @@ bool climbs(const std::vector<CurveRow>& rows, double width, const Abscissa& abs
           rows[i].line, abscissa.name, abscissa.shown(rows[i].x),
           fmt::format("must increase, up to noise of {} (1/{} of its range), and has "
                       "already been {} at line {}",
-                      abscissa.shown(width), most_rows, abscissa.shown(highest.x), highest.line),
+                      abscissa.shown(width), max_rows, abscissa.shown(highest.x), highest.line),
           how_to_split(abscissa));
       return false;
     }
@@ -116,8 +116,8 @@ calibration::Curve averaged(const std::vector<CurveRow>& rows, const Abscissa& a
                             FileProblems& problems, std::vector<std::string>& notes) {
   const auto [least, largest] = std::ranges::minmax_element(rows, {}, &CurveRow::x);
   const double range = largest->x - least->x;
-  const double width = range / double(most_rows);
-  if (!(range > least_range * std::abs(largest->x))) {
+  const double width = range / double(max_rows);
+  if (!(range > min_range * std::abs(largest->x))) {
     problems.add(least->line, abscissa.name, abscissa.shown(least->x), "is the same in every row",
                  "write rows at different values");
     return {};
@@ -125,7 +125,7 @@ calibration::Curve averaged(const std::vector<CurveRow>& rows, const Abscissa& a
   if (!climbs(rows, width, abscissa, problems)) return {};
   std::vector<std::size_t> bin;
   for (const CurveRow& row : rows)
-    bin.push_back(std::min(std::size_t((row.x - least->x) / width), most_rows - 1));
+    bin.push_back(std::min(std::size_t((row.x - least->x) / width), max_rows - 1));
   const auto [curve, bins] = means(rows, bin, has_time(rows));
   const auto [fewest, most] = std::ranges::minmax_element(bins, {}, &Bin::rows);
   notes.push_back(
@@ -140,8 +140,8 @@ calibration::Curve averaged(const std::vector<CurveRow>& rows, const Abscissa& a
 }  // namespace
 
 double noise_of(const std::vector<CurveRow>& rows) {
-  constexpr std::size_t least_rows = 8;
-  if (rows.size() < least_rows) return 0.0;
+  constexpr std::size_t min_rows = 8;
+  if (rows.size() < min_rows) return 0.0;
   double sum = 0.0;
   for (std::size_t i = 3; i < rows.size(); ++i) {
     const double third = rows[i].y - rows[i - 3].y - 3.0 * (rows[i - 1].y - rows[i - 2].y);
@@ -158,7 +158,7 @@ calibration::Curve curve_of(const std::vector<CurveRow>& rows, const Abscissa& a
                             FileProblems& problems, std::vector<std::string>& notes) {
   const auto falls = [](const CurveRow& a, const CurveRow& b) { return b.x <= a.x; };
   const bool trembles = abscissa.is_travel && std::ranges::adjacent_find(rows, falls) != rows.end();
-  if (rows.size() > most_rows || trembles) return averaged(rows, abscissa, problems, notes);
+  if (rows.size() > max_rows || trembles) return averaged(rows, abscissa, problems, notes);
   calibration::Curve curve;
   if (!increase(rows, abscissa, problems)) return curve;
   for (const CurveRow& row : rows) {
@@ -172,7 +172,7 @@ calibration::Curve curve_of(const std::vector<CurveRow>& rows, const Abscissa& a
 
 namespace {
 
-constexpr std::size_t most_hold_values = 40;
+constexpr std::size_t max_hold_values = 40;
 
 /// Times increase, as they must where forces depend on them.
 bool goes_on(const std::vector<CurveRow>& rows, FileProblems& problems) {
@@ -194,10 +194,10 @@ void number_hold(const std::vector<CurveRow>& rows, std::size_t first, std::size
   const double decades = std::log1p((rows[end - 1].time - begin) / step);
   for (std::size_t i = first; i < end; ++i) {
     const double share = std::log1p((rows[i].time - begin) / step) / decades;
-    bin[i] = start +
-             (count <= most_hold_values
-                  ? i - first
-                  : std::min(most_hold_values - 1, std::size_t(share * double(most_hold_values))));
+    bin[i] =
+        start + (count <= max_hold_values
+                     ? i - first
+                     : std::min(max_hold_values - 1, std::size_t(share * double(max_hold_values))));
   }
 }
 
@@ -210,9 +210,9 @@ TimedCurve curve_in_time(const std::vector<CurveRow>& rows, const Abscissa& absc
   std::ranges::copy_if(rows, std::back_inserter(way),
                        [](const CurveRow& row) { return row.hold == 0; });
   const auto [least, largest] = std::ranges::minmax_element(rows, {}, &CurveRow::x);
-  const double first = least->x, width = (largest->x - first) / double(most_rows);
+  const double first = least->x, width = (largest->x - first) / double(max_rows);
   const auto falls = [](const CurveRow& a, const CurveRow& b) { return b.x <= a.x; };
-  const bool dense = way.size() > most_rows || std::ranges::adjacent_find(way, falls) != way.end();
+  const bool dense = way.size() > max_rows || std::ranges::adjacent_find(way, falls) != way.end();
   if (!(width > 0.0)) {
     problems.add(least->line, abscissa.name, abscissa.shown(first), "is the same in every row",
                  "write rows at different values");

@@ -21,7 +21,7 @@ struct Abscissa {
   std::string shown(double si) const;
 };
 
-inline constexpr std::size_t most_rows = 200;
+inline constexpr std::size_t max_rows = 200;
 
 /// Of a travel the rows up to the largest x, without holds on the way. What comes later, holds and
 /// the way back, goes into `course`; both are told in `notes`.
@@ -40,7 +40,7 @@ std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::LoadingHi
 /// errors follow each other, it is too small.
 double noise_of(const std::vector<CurveRow>& rows);
 
-/// `rows` as a curve: as they are up to `most_rows`, which must increase in x, or averaged in bins
+/// `rows` as a curve: as they are up to `max_rows`, which must increase in x, or averaged in bins
 /// (curve_file.h) with a note, as are fewer rows of a travel that does not increase strictly. Adds
 /// what is wrong to `problems`; the curve then is empty.
 calibration::Curve curve_of(const std::vector<CurveRow>& rows, const Abscissa& abscissa,

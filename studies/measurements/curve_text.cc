@@ -17,13 +17,13 @@ using std::string_view;
 
 namespace {
 
-constexpr std::size_t most_problems = 10;
+constexpr std::size_t max_problems = 10;
 
 }  // namespace
 
 void FileProblems::add(std::size_t line, const std::string& column, const std::string& value,
                        const std::string& rule, const std::string& remedy) {
-  if (problems_.size() == most_problems) {
+  if (problems_.size() == max_problems) {
     ++further_;
     return;
   }

@@ -30,7 +30,7 @@ using meshes::InvalidInput;
 using std::string_view;
 
 /// Points of a curve that is averaged, where nothing else is said.
-constexpr long usual_points = 200, most_points = 1000;
+constexpr long usual_points = 200, max_points = 1000;
 /// Share of rows whose strain may step back.
 constexpr double noise_share = 0.1;
 
@@ -193,9 +193,9 @@ void TestReader::read_in_time(const fs::path& path) {
   if (time.has("from") && !strain_.value)
     time.refuse("from", time.text("from").value_or(""), "the strain's column tells when it is held",
                 "leave it out");
-  const long usual = found_.course == TestCourse::relaxation ? usual_points : most_points;
+  const long usual = found_.course == TestCourse::relaxation ? usual_points : max_points;
   put_in_time(test_, path, strain_, stress_, sigma_.has_value(), rows_of(path),
-              std::size_t(test_.whole("points", usual, 2, most_points)), found_, result_.notes);
+              std::size_t(test_.whole("points", usual, 2, max_points)), found_, result_.notes);
 }
 
 /// Sums of squares in a file of JSON, where others published them.
@@ -261,7 +261,7 @@ void TestReader::read_slow(const std::vector<fs::path>& paths) {
   for (const fs::path& path : paths) curves.push_back(curve_of(path));
   const bool many =
       curves.size() > 1 || test_.has("points") || curves.front().size() > std::size_t(usual_points);
-  const long points = test_.whole("points", usual_points, 2, most_points);
+  const long points = test_.whole("points", usual_points, 2, max_points);
   if (many && sigma_)
     test_.refuse("sigma", sigma_->column, "a curve that is averaged has no sigma of its own",
                  "leave sigma out");

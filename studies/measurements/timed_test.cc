@@ -18,7 +18,7 @@ using Rows = std::vector<CurveRow>;
 
 namespace {
 
-constexpr std::size_t most_corners = 10000;
+constexpr std::size_t max_corners = 10000;
 
 /// Seconds over the unit of the column.
 double seconds_of(const TestTable& time) {
@@ -107,11 +107,11 @@ std::size_t leave_out_slack(Rows& rows, const MaterialTest& test) {
 /// Of a file that begins with its second row: where the speed of its first step leads back to rest
 /// within little more than a step, the pull began there. Else what its first row shows is sudden.
 void add_start(const StrainColumn& strain, const Rows& rows, MaterialTest& test) {
-  constexpr double most_steps = 1.5;
+  constexpr double max_steps = 1.5;
   const double rest = calibration::rest_of(test.kind),
                first = strain.deformation(test.kind, rows[0].x),
                way = strain.deformation(test.kind, rows[1].x) - first, steps = (first - rest) / way;
-  if (!(steps > 0.0) || steps > most_steps) return;
+  if (!(steps > 0.0) || steps > max_steps) return;
   test.path.time.push_back(rows[0].time - steps * (rows[1].time - rows[0].time));
   test.path.deformation.push_back(rest);
 }
@@ -136,7 +136,7 @@ void put_in_time(const TestTable& description, const std::filesystem::path& file
   if (strain.value) {
     test.path = held_path(description, strain, rows, test);
   } else {
-    const auto corners = every_so_many(rows.size(), most_corners);
+    const auto corners = every_so_many(rows.size(), max_corners);
     if (corners.size() < rows.size())
       notes.push_back(
           fmt::format("{}: the strain follows {} of {} rows", name, corners.size(), rows.size()));

@@ -24,7 +24,7 @@ using lattice::PressSetup;
 using Moment = std::chrono::steady_clock::time_point;
 
 constexpr double longest_trial = 0.3;  // of simulated time [s]
-constexpr int most_trials = 10;
+constexpr int max_trials = 10;
 
 Moment moment_in(double seconds) {
   using SteadyClock = std::chrono::steady_clock;
@@ -81,7 +81,7 @@ double measured_factor(const PressSetup& setup, double seconds) {
   const PressSetup trial = trial_of(setup);
   const Moment end = moment_in(seconds);
   double best = run_trial(trial, end);
-  for (int i = 1; i < most_trials && seconds_until(end) > 0.5 * seconds; ++i)
+  for (int i = 1; i < max_trials && seconds_until(end) > 0.5 * seconds; ++i)
     best = std::max(best, run_trial(trial, end));
   return best;
 }

@@ -24,7 +24,7 @@ namespace {
 using lattice::ModelKind;
 
 /// Beyond this a press would need more memory than a workstation has.
-constexpr double most_particles = 2e7;
+constexpr double max_particles = 2e7;
 
 void check_constants_source(const LoadedConfig& loaded) {
   const bool published = loaded.config.press.lattice.model == ModelKind::published;
@@ -121,9 +121,9 @@ std::vector<meshes::Violation> broken_by_spacing(const LoadedConfig& loaded) {
   const meshes::Geometry& geometry = loaded.config.press.geometry;
   const double spacing = loaded.config.press.lattice.spacing, radius = geometry.tip_radius;
   if (!(spacing <= geometry.coarsest_spacing())) return {meshes::too_coarse(geometry, spacing)};
-  const bool too_many = meshes::expected_particle_count(geometry, spacing) > most_particles;
+  const bool too_many = meshes::expected_particle_count(geometry, spacing) > max_particles;
   if (!too_many && spacing >= lattice::smallest_spacing * radius) return {};
-  const double finest = std::max(std::cbrt(geometry.tip_volume() / most_particles),
+  const double finest = std::max(std::cbrt(geometry.tip_volume() / max_particles),
                                  lattice::smallest_spacing * radius);
   const std::string thin = thin_part(geometry);
   return {{"lattice.spacing", calibration::rounded(spacing) + " m",

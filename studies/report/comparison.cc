@@ -181,7 +181,7 @@ std::string summary_sentence(const Comparison& comparison) {
   const std::vector<ComparedCurve>& curves = comparison.curves;
   WordList others;
   for (std::size_t i = 1; i < curves.size(); ++i) {
-    Words& words = others.emplace_back();
+    TemplateData& words = others.emplace_back();
     words["next"] = i > 1;
     words["label"] = curves[i].label;
     words["difference"] = words["depth"] = words["l2"] = words["from"] = "";
@@ -194,7 +194,7 @@ std::string summary_sentence(const Comparison& comparison) {
     words["l2"] = if_known(all.l2, percent_magnitude(all.l2));
     words["from"] = length(all.from);
   }
-  Words words;
+  TemplateData words;
   words["meaningless"] = std::ranges::any_of(comparison.remarks, &ComparisonRemark::meaningless);
   words["first"] = curves.front().label;
   words["curves"] = std::move(others);

@@ -26,8 +26,8 @@ double largest_error(const ModelData& model) {
 }
 
 /// How far a model's force is off: the least and the greatest error, or one at all depths.
-Words description_of(const RunData& run, const ModelData& model) {
-  Words words;
+TemplateData description_of(const RunData& run, const ModelData& model) {
+  TemplateData words;
   words["model"] = model.name;
   for (const char* name : {"error", "least", "least_depth", "most", "most_depth"}) words[name] = "";
   const std::vector<double>& errors = model.force_error;
@@ -52,7 +52,7 @@ std::string criteria_sentence(const RunData& run) {
   std::vector<std::string> failed;
   for (const CriterionEntry& criterion : criteria)
     if (!criterion.passed) failed.push_back(criterion.name);
-  Words words;
+  TemplateData words;
   words["criteria"] = std::to_string(criteria.size());
   words["single"] = criteria.size() == 1;
   words["count"] = std::to_string(failed.size());
@@ -152,11 +152,11 @@ std::string models_answer(const RunData& run) {
   });
   WordList compared;
   for (const ModelData* model : models) {
-    Words words = description_of(run, *model);
+    TemplateData words = description_of(run, *model);
     words["next"] = !compared.empty();
     compared.push_back(std::move(words));
   }
-  Words words;
+  TemplateData words;
   words["depth"] = run.reference.empty() ? "" : length(depth);
   words["force"] = run.reference.empty() ? "" : force(run.reference.normal_force_at(depth));
   words["compared"] = !compared.empty();

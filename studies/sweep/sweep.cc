@@ -16,7 +16,7 @@ namespace fingertip::studies::inline sweep {
 
 namespace {
 
-constexpr std::size_t most_points = 1000000;
+constexpr std::size_t max_points = 1000000;
 constexpr std::size_t id_digits = 12;
 
 const std::vector<std::string>& verbs() {
@@ -124,7 +124,7 @@ std::string common_text(const std::string& verb, const LoadedConfig& base,
 std::vector<SweepPoint> combinations(const SweepReader& reader) {
   std::vector<SweepPoint> points(1);
   for (const auto& [key, values] : reader.axes) {
-    if (points.size() * values.size() > most_points)
+    if (points.size() * values.size() > max_points)
       throw ConfigError({"", "", "more than a million points", "shorten an axis", "sweep"});
     std::vector<SweepPoint> more;
     for (const SweepPoint& point : points) {

@@ -163,14 +163,14 @@ void write_curves(const std::vector<Row>& rows, const std::vector<std::string>& 
 
 /// For a terminal: the first rows with settings and answers.
 std::string screen_text(const std::vector<Row>& rows, const std::vector<std::string>& axes) {
-  constexpr std::size_t most_rows = 40;
+  constexpr std::size_t max_rows = 40;
   const std::vector<std::string> answers = answer_columns(rows);
   std::vector<std::vector<std::string>> cells;
   cells.push_back({"point", "status"});
   cells.back().insert(cells.back().end(), axes.begin(), axes.end());
   cells.back().insert(cells.back().end(), answers.begin(), answers.end());
   for (const Row& row : rows) {
-    if (cells.size() > most_rows) break;
+    if (cells.size() > max_rows) break;
     cells.push_back({row.id, row.status.substr(0, row.status.find(':'))});
     cells.back().insert(cells.back().end(), row.settings.begin(), row.settings.end());
     for (const std::string& name : answers) {
@@ -189,7 +189,7 @@ std::string screen_text(const std::vector<Row>& rows, const std::vector<std::str
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';
   }
-  if (rows.size() > most_rows) text += fmt::format("... {} more\n", rows.size() - most_rows);
+  if (rows.size() > max_rows) text += fmt::format("... {} more\n", rows.size() - max_rows);
   return text;
 }
 

@@ -59,8 +59,8 @@ constexpr Verb verbs[] = {
     {"doctor", "tell versions, programs, folders and cores", "", "", 0U},
 };
 
-constexpr int most_ranks = 1024;
-constexpr int most_pictures = 2000;
+constexpr int max_ranks = 1024;
+constexpr int max_pictures = 2000;
 
 constexpr const char* footer =
     "`./fingertip test` runs the tests; it belongs to the launcher script beside README.md.\n"
@@ -170,7 +170,7 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
   if (name == "reference") {
     sub.add_option("--ranks", line.ranks, "MPI processes to share the work (mpirun); default 1")
         ->type_name("N")
-        ->check(CLI::Range(1, most_ranks));
+        ->check(CLI::Range(1, max_ranks));
   }
   if (name == "press" || name == "live")
     sub.add_flag("--real-time", line.real_time,
@@ -181,7 +181,7 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
         ->type_name("N")
         ->expected(0, 1)
         ->default_str("40")
-        ->check(CLI::Range(2, most_pictures));
+        ->check(CLI::Range(2, max_pictures));
   }
   if (name == "live") add_live(sub, line);
   if (name == "sweep") add_sweep(sub, line);

@@ -31,7 +31,7 @@ using meshes::Vector3;
 constexpr double mm = 1e-3, um = 1e-6;
 /// Memory of a press in motion, at all and per V/a³ [MB]: measured on the dome at R/12, R/24, R/32
 /// (network; 77, 339 and 691 MB).
-constexpr double least_memory = 40.0, memory_per_mass = 3.7e-3;
+constexpr double min_memory = 40.0, memory_per_mass = 3.7e-3;
 
 struct Look {
   ProfileSurface surface;
@@ -101,7 +101,7 @@ void print_lattices(const Geometry& geometry) {
         "  lattice           tip_radius/{:.3g} = {:.3g} mm: about {:.2g} masses, {:.0f} MB in "
         "motion\n",
         std::ceil(10.0 * geometry.tip_radius / spacing) / 10.0, spacing / mm, masses,
-        least_memory + masses * memory_per_mass);
+        min_memory + masses * memory_per_mass);
   }
   if (const std::string thin = thin_part(geometry); !thin.empty())
     fmt::print("                    {}\n", thin);

@@ -117,7 +117,7 @@ std::vector<Key> calibration_keys() {
           "neo-hookean, mooney-rivlin, gent, yeoh-2, yeoh-3, ogden-1, ogden-2, ogden-3; \"yeoh-2+"
           "prony-1\": with so many branches of a relaxation, not up to calibration.branches",
           {})),
-      of_material(entry("branches", {0, calibration::most_branches, true},
+      of_material(entry("branches", {0, calibration::max_branches, true},
                         "most branches of a relaxation, where tests are given in time",
                         &Order::branches)),
       of_material(choice("calibration", "weights",

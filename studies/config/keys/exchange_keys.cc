@@ -10,9 +10,9 @@ namespace {
 constexpr auto exchange = [](auto member) { return at(&Config::exchange, member); };
 
 /// 350 million springs; the model alone takes some 10 GB then.
-constexpr double most_cells = 300;
-constexpr double most_steps = 1e9;
-constexpr double most_agitation = 0.2;
+constexpr double max_cells = 300;
+constexpr double max_steps = 1e9;
+constexpr double max_agitation = 0.2;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ std::vector<Key> exchange_keys() {
              {{"fingertip", "the tip of [geometry]"},
               {"cube", "a free cube of exchange.cells cells a side, for checks and benchmarks"}},
              "which lattice is handed to another program", exchange(&ExchangeSettings::cube)),
-      plain("exchange", "cells", {1, most_cells, true}, "cells along an edge of the cube",
+      plain("exchange", "cells", {1, max_cells, true}, "cells along an edge of the cube",
             exchange(&ExchangeSettings::cells)),
       with_rule(
           choice("exchange", "hold",
@@ -41,11 +41,11 @@ std::vector<Key> exchange_keys() {
       plain("exchange", "wall_stiffness", positive,
             "force of the wall per penetration of a mass, over the stiffness of an axis spring",
             exchange(&ExchangeSettings::wall_stiffness)),
-      plain("exchange", "steps", {1, most_steps, true}, "how many steps",
+      plain("exchange", "steps", {1, max_steps, true}, "how many steps",
             exchange(&ExchangeSettings::steps)),
-      plain("exchange", "every", {0, most_steps, true}, "steps between stored frames; 0: none",
+      plain("exchange", "every", {0, max_steps, true}, "steps between stored frames; 0: none",
             exchange(&ExchangeSettings::every)),
-      plain("exchange", "agitation", {0.0, most_agitation, true},
+      plain("exchange", "agitation", {0.0, max_agitation, true},
             "largest random displacement of a mass along an axis at the start, in spacings; "
             "velocities are as large, times the frequency of an axis spring",
             exchange(&ExchangeSettings::agitation)),

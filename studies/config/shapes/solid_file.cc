@@ -28,7 +28,7 @@ using meshes::TriangleMesh;
 
 constexpr std::size_t head_bytes = 84, facet_bytes = 50;
 /// Beyond, the checks take minutes.
-constexpr std::size_t most_facets = 2'000'000, most_names = 10'000;
+constexpr std::size_t max_facets = 2'000'000, max_names = 10'000;
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
@@ -101,14 +101,14 @@ TriangleMesh text_facets(const fs::path& file, const std::string& text) {
       if (corner != 3) refuse("a facet has three vertices", "export the surface as triangles");
       add_triangle(corners, mesh);
       mesh.faces.push_back(face);
-      if (mesh.triangles.size() > most_facets) refuse_facets(mesh.triangles.size());
+      if (mesh.triangles.size() > max_facets) refuse_facets(mesh.triangles.size());
       corner = 0;
     } else if (word == "endsolid") {
       ended = true;
     } else if (word == "solid") {
       ended = false;
       face = mesh.face_number(std::string(trimmed(trimmed(line).substr(word.size()))));
-      if (mesh.face_names.size() > most_names)
+      if (mesh.face_names.size() > max_names)
         refuse("at most ten thousand solids of a file have names", "leave the names out");
     } else if (word == "facet") {
       ended = false;
@@ -226,7 +226,7 @@ TriangleMesh read_stl(const fs::path& file) {
                         "facets, here " +
                             std::to_string(count) + "; a text begins with solid",
                         "export it anew"});
-  if (count > most_facets) refuse_facets(count);
+  if (count > max_facets) refuse_facets(count);
   return binary_facets(bytes, count);
 }
 

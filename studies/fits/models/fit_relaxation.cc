@@ -17,7 +17,7 @@ namespace {
 /// Times are sought so far beyond those that the curves tell of.
 constexpr double beyond = 30.0;
 /// No share is sought beyond these: with more nothing would be left after long times.
-constexpr double least_share = 1e-4, most_share = 0.95;
+constexpr double min_share = 1e-4, max_share = 0.95;
 /// Where no hold tells one.
 constexpr double usual_share = 0.2;
 /// Between starts in time.
@@ -112,9 +112,9 @@ void start_branches(const LoadedConfig& loaded, FitInput& input) {
                        ? std::clamp(given_branches(loaded)[branch].time, free.lower, free.upper)
                        : times[0] * std::pow(times[1] / times[0], share);
     } else {
-      free.lower = least_share;
-      free.upper = most_share;
-      free.start = branch < known ? std::min(given_branches(loaded)[branch].share, most_share)
+      free.lower = min_share;
+      free.upper = max_share;
+      free.start = branch < known ? std::min(given_branches(loaded)[branch].share, max_share)
                                   : fall / sought;
       free.scale = usual_share;
     }

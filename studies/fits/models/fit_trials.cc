@@ -23,8 +23,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int most_trials = 200;
-constexpr double most_stiffening = 0.3;
+constexpr int max_trials = 200;
+constexpr double max_stiffening = 0.3;
 
 const char* cause_of(MaterialParameter parameter) {
   switch (parameter) {
@@ -144,7 +144,7 @@ Trials::Trials(const FitInput& input, const calibration::CurveFit& fit,
   options_.free.assign(std::size_t(scales_), scale);
   options_.start_once();
   options_.progress = {};
-  options_.max_evaluations = most_trials;
+  options_.max_evaluations = max_trials;
   options_.value_deviation = fit.residual_deviation;  // the same for all that are compared
   for (std::size_t k = rubber; k < options.free.size(); ++k) {
     options_.free.push_back(options.free[k]);
@@ -187,7 +187,7 @@ FreeParameter Trials::parameter_of(const Freed& freed) const {
   free.scale = scales[freed.kind];
   free.of = freed.of;
   if (rig_parameters[freed.kind] == MaterialParameter::compliance) {
-    free.lower = freed.stiffens ? -most_stiffening * free.scale : 0.0;
+    free.lower = freed.stiffens ? -max_stiffening * free.scale : 0.0;
     free.upper = freed.stiffens ? 0.0 : free.start + highest_compliance * free.scale;
     free.start = std::clamp(free.start, free.lower, free.upper);
   }

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 namespace {
 
 /// Another theory is there or not; coarse lattices tell its forces to a half.
-constexpr double most_excess = 1.5;
+constexpr double max_excess = 1.5;
 
 constexpr const char* relaxation_name = "relaxation";
 
@@ -100,9 +100,9 @@ std::optional<OmittedEffect> relaxation(const FitInput& input, const calibration
     if (!(constant > 0.0) || !(forces(forces.size() - 1) > 0.0)) continue;
     const double shown = calibration::fading_of(curve.course, forces, curve.x, times, constant);
     if (!(shown > 0.0)) continue;
-    effect.most = std::max(effect.most, std::min(1.0, most_excess * shown));
+    effect.most = std::max(effect.most, std::min(1.0, max_excess * shown));
     effect.change.segment(first_value(input.curves, i), forces.size()) =
-        calibration::fading(forces, times, constant);
+        calibration::relaxation_change(forces, times, constant);
   }
   if (effect.most == 0.0) return std::nullopt;
   return effect;
@@ -162,7 +162,7 @@ std::vector<ScoreTest> score_tests_of(const FitInput& input, const calibration::
                             .cwiseProduct(VectorXd::Map(relative.data(), Index(relative.size()))));
     }
     effects.push_back({excess.name, "", excess.cause, "1", calibration::stacked(changes), 0.0,
-                       most_excess, "what coarse lattices compute for it"});
+                       max_excess, "what coarse lattices compute for it"});
   }
   if (input.branches.empty())  // else it is in the model
     if (auto fades = relaxation(input, fit)) effects.push_back(*std::move(fades));

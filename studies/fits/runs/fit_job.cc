@@ -21,10 +21,10 @@
 #include "meshes/tables/fields_json.h"
 #include "source_hash.h"
 #include "studies/fits/models/fit_models.h"
-#include "studies/fits/models/fit_prospects.h"
 #include "studies/fits/models/fit_relaxation.h"
 #include "studies/fits/models/fit_repeats.h"
 #include "studies/fits/models/fit_rig.h"
+#include "studies/fits/models/measurement_gains.h"
 #include "studies/fits/models/omitted_effects.h"
 #include "studies/jobs/json_file.h"
 #include "studies/presses/press_record.h"
@@ -223,13 +223,13 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   stage = "lack of fit";
   record.lack_of_fit = score_tests_of(input, own, record.options, models, scatter(record.repeats));
   if (record.fit.converged && !input.candidates.empty())
-    record.next =
-        outlook(input, models, record.fit.estimates, record.fit.residual_deviation, folder, context,
-                [&](double, const std::string& name) {
-                  stage = "further measurement, " + name;
-                  return go_on();
-                })
-            .prospects;
+    record.next = measurement_gains(input, models, record.fit.estimates,
+                                    record.fit.residual_deviation, folder, context,
+                                    [&](double, const std::string& name) {
+                                      stage = "further measurement, " + name;
+                                      return go_on();
+                                    })
+                      .gains;
   record.rig = rig_values(input);
   for (std::size_t i = 0; has_travels(input) && i < input.curves.size(); ++i)
     record.indentation.push_back(models.indentations(i, record.fit.estimates));

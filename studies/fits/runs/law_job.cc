@@ -182,7 +182,7 @@ LawInput law_input(const LoadedConfig& loaded) {
     else
       found.push_back({"calibration.laws", law,
                        "must be among " + names + ", of a relaxation with +prony-1 to +prony-" +
-                           std::to_string(calibration::most_branches) + " behind",
+                           std::to_string(calibration::max_branches) + " behind",
                        "take some of them"});
   }
   if (asked.empty()) asked = calibration::known_laws();

@@ -12,8 +12,8 @@
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/files/plan_file.h"
-#include "studies/fits/models/fit_prospects.h"
 #include "studies/fits/models/fit_rig.h"
+#include "studies/fits/models/measurement_gains.h"
 #include "studies/fits/runs/fit_job.h"
 #include "studies/jobs/json_file.h"
 
@@ -55,7 +55,7 @@ std::string interval_words(const PlannedParameter& parameter) {
 }
 
 std::string statement_of(const PlanFile& plan, const std::vector<std::string>& labels,
-                         const Outlook& found, std::size_t decisive) {
+                         const MeasurementGains& found, std::size_t decisive) {
   std::string text =
       "Forces that err by " + calibration::percent(plan.noise) +
       (plan.noise_force > 0.0 ? " and " + rounded(plan.noise_force, 3) + " N" : std::string()) +
@@ -69,12 +69,12 @@ std::string statement_of(const PlanFile& plan, const std::vector<std::string>& l
             "): were one known, the interval of the other would "
             "be " +
             rounded(pair.times, 2) + " times narrower.";
-  const std::string next = calibration::prospect_statement(found.prospects, labels, decisive);
+  const std::string next = calibration::gain_statement(found.gains, labels, decisive);
   return next.empty() ? text : text + " " + next;
 }
 
 PlanFile file_of(const FitInput& input, const PlannedNoise& noise, const VectorXd& at,
-                 const Outlook& found) {
+                 const MeasurementGains& found) {
   PlanFile plan;
   plan.problem = name(input.problem);
   plan.forward = by_continuum(input) ? "continuum" : "lattice";
@@ -109,7 +109,7 @@ PlanFile file_of(const FitInput& input, const PlannedNoise& noise, const VectorX
   for (const CollinearPair& pair : calibration::nearly_collinear(found.covariance))
     plan.collinear.push_back(
         {labels[pair.first], labels[pair.second], pair.correlation, pair.times});
-  plan.next = calibration::next_entries(found.prospects, labels, at, lower, upper);
+  plan.next = calibration::next_entries(found.gains, labels, at, lower, upper);
   plan.statement = statement_of(plan, labels, found, material_parameters(input));
   return plan;
 }
@@ -126,12 +126,12 @@ void run_plan(FitInput input, const PlannedNoise& noise, const fs::path& folder,
   for (std::size_t i = 0; i < input.curves.size(); ++i)
     static_cast<calibration::Curve&>(input.curves[i]) =
         as_if_measured(input, models, i, at, stated);
-  const Outlook found =
-      outlook(input, models, at, 0.0, folder, context, [&](double done, const std::string& name) {
-        share = 0.5 + 0.5 * done;
-        stage = "further measurement, " + name;
-        return go_on();
-      });
+  const MeasurementGains found = measurement_gains(input, models, at, 0.0, folder, context,
+                                                   [&](double done, const std::string& name) {
+                                                     share = 0.5 + 0.5 * done;
+                                                     stage = "further measurement, " + name;
+                                                     return go_on();
+                                                   });
   PlanFile plan = file_of(input, noise, at, found);
   plan.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   meshes::write_json_file(plan, folder / plan_name);

@@ -171,7 +171,7 @@ void check_stretches(const std::filesystem::path& path, const MeasuredFile& file
   FileProblems problems(path);
   for (std::size_t i = 0; i < file.curve.x.size(); ++i)
     if (const double stretch = file.curve.x[i];
-        stretch < calibration::least_stretch || stretch > calibration::largest_stretch)
+        stretch < calibration::min_stretch || stretch > calibration::largest_stretch)
       problems.add(file.lines[i], "stretch", meshes::to_text(stretch),
                    "a stretch lies between 0.01 and 100",
                    "give length over length at rest, 1 for the bar at rest");

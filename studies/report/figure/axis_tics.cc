@@ -24,8 +24,8 @@ std::vector<double> decades(const Range& extent, bool finely) {
 
 /// Multiples of 1, 2 or 5 times a power of ten, three to eight within a range.
 std::vector<double> multiples(const Range& range) {
-  constexpr double most_tics = 8.0;
-  const double finest = (range.to - range.from) / most_tics;
+  constexpr double max_tics = 8.0;
+  const double finest = (range.to - range.from) / max_tics;
   double step = std::pow(10.0, std::floor(std::log10(finest)));
   for (const double factor : {2.0, 2.5, 2.0})  // 1, 2, 5, 10
     if (step < finest) step *= factor;
@@ -37,14 +37,14 @@ std::vector<double> multiples(const Range& range) {
 }  // namespace
 
 std::vector<double> logarithmic_tics(const Range& extent, const Range& range) {
-  constexpr int least_tics = 3;
-  constexpr std::size_t most_decades = 3;  // with 2 and 5 times them
+  constexpr int min_tics = 3;
+  constexpr std::size_t max_decades = 3;  // with 2 and 5 times them
   const auto too_few = [&](const std::vector<double>& tics) {
     return std::ranges::count_if(
-               tics, [&](double tic) { return range.from <= tic && tic <= range.to; }) < least_tics;
+               tics, [&](double tic) { return range.from <= tic && tic <= range.to; }) < min_tics;
   };
   std::vector<double> tics = decades(extent, false);
-  if (tics.size() <= most_decades || too_few(tics)) tics = decades(extent, true);
+  if (tics.size() <= max_decades || too_few(tics)) tics = decades(extent, true);
   return too_few(tics) && range.from < range.to ? multiples(range) : tics;
 }
 

@@ -35,15 +35,15 @@ WordList cell_words(const std::vector<Cell>& row, bool is_row) {
 struct BlockWords {
   fs::path figures;
 
-  Words operator()(const Paragraph& paragraph) const {
+  TemplateData operator()(const Paragraph& paragraph) const {
     return of(
         "paragraph",
         {{{"lead", paragraph.lead}, {"text", paragraph.text}, {"warning", paragraph.warning}}});
   }
-  Words operator()(const Listing& listing) const {
+  TemplateData operator()(const Listing& listing) const {
     return of("listing", {{{"listing_title", listing.title}, {"listing_text", listing.text}}});
   }
-  Words operator()(const Table& table) const {
+  TemplateData operator()(const Table& table) const {
     WordList rows;
     for (const auto& row : table.rows) rows.push_back({{{"cells", cell_words(row, true)}}});
     return of("table", {{{"table_caption", table.caption},
@@ -52,7 +52,7 @@ struct BlockWords {
                          {"graded", table.graded},
                          {"dense", table.header.size() > 8}}});
   }
-  Words operator()(const FigureBlock& block) const {
+  TemplateData operator()(const FigureBlock& block) const {
     const Drawing drawing = draw(block.figure, block.title, figures);
     return of("figure", {{{"svg", drawing.svg},
                           {"points", drawing.points},
@@ -62,8 +62,9 @@ struct BlockWords {
   }
 
  private:
-  static Words of(const std::string& kind, Words own) {
-    Words block{{{"paragraph", false}, {"listing", false}, {"table", false}, {"figure", false}}};
+  static TemplateData of(const std::string& kind, TemplateData own) {
+    TemplateData block{
+        {{"paragraph", false}, {"listing", false}, {"table", false}, {"figure", false}}};
     block[kind] = WordList{std::move(own)};
     return block;
   }

@@ -8,32 +8,32 @@
 namespace fingertip::studies::report::inline page {
 namespace {
 
-using Filling = kainjow::mustache::data;
+using MustacheData = kainjow::mustache::data;
 
-Filling filling_of(const Words& words);
+MustacheData mustache_data(const TemplateData& words);
 
-Filling filling_of(const Words::Value& value) {
+MustacheData mustache_data(const TemplateData::Value& value) {
   if (const bool* condition = std::get_if<bool>(&value)) return *condition;
   if (const std::string* text = std::get_if<std::string>(&value))
-    return text->empty() ? Filling(false) : Filling(*text);
-  Filling list{kainjow::mustache::list()};
-  for (const Words& entry : std::get<WordList>(value)) list << filling_of(entry);
+    return text->empty() ? MustacheData(false) : MustacheData(*text);
+  MustacheData list{kainjow::mustache::list()};
+  for (const TemplateData& entry : std::get<WordList>(value)) list << mustache_data(entry);
   return list;
 }
 
-Filling filling_of(const Words& words) {
-  Filling object;
-  for (const auto& [name, value] : words.values) object.set(name, filling_of(value));
+MustacheData mustache_data(const TemplateData& words) {
+  MustacheData object;
+  for (const auto& [name, value] : words.values) object.set(name, mustache_data(value));
   return object;
 }
 
 /// Where kainjow shows nothing for an unknown name, this one says so.
 class StrictNames : public kainjow::mustache::context<std::string> {
  public:
-  StrictNames(const Filling& root, const std::string& where) : context(&root), where_(where) {}
+  StrictNames(const MustacheData& root, const std::string& where) : context(&root), where_(where) {}
 
-  const Filling* get(const std::string& name) const override {
-    if (const Filling* found = context::get(name)) return found;
+  const MustacheData* get(const std::string& name) const override {
+    if (const MustacheData* found = context::get(name)) return found;
     throw std::logic_error(fmt::format("{}.mustache: no value for {}", where_, name));
   }
 
@@ -43,13 +43,13 @@ class StrictNames : public kainjow::mustache::context<std::string> {
 
 }  // namespace
 
-std::string rendered(std::string_view text, const Words& words, const std::string& name,
+std::string rendered(std::string_view text, const TemplateData& words, const std::string& name,
                      const std::function<std::string(const std::string&)>& escape) {
   kainjow::mustache::mustache view{std::string(text)};
   if (!view.is_valid())
     throw std::logic_error(fmt::format("{}.mustache: {}", name, view.error_message()));
   if (escape) view.set_custom_escape(escape);
-  const Filling root = filling_of(words);
+  const MustacheData root = mustache_data(words);
   StrictNames names(root, name);
   return view.render(names);
 }

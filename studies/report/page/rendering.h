@@ -12,17 +12,17 @@ namespace fingertip::studies::report::inline page {
 
 /// What the names in a template stand for: a text, a condition, or a list whose section is repeated
 /// for each of its entries. As the condition of a section an empty text is false.
-struct Words {
-  using Value = std::variant<std::string, bool, std::vector<Words>>;
+struct TemplateData {
+  using Value = std::variant<std::string, bool, std::vector<TemplateData>>;
   std::map<std::string, Value> values;
 
   Value& operator[](const std::string& name) { return values[name]; }
 };
-using WordList = std::vector<Words>;
+using WordList = std::vector<TemplateData>;
 
 /// The template with its values, each as `escape` gives it; for HTML without one. Throws
 /// std::logic_error naming the template `name` when it is none, and for a value that is not given.
-std::string rendered(std::string_view text, const Words& words, const std::string& name,
+std::string rendered(std::string_view text, const TemplateData& words, const std::string& name,
                      const std::function<std::string(const std::string&)>& escape = {});
 
 }  // namespace fingertip::studies::report::inline page

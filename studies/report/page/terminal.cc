@@ -71,7 +71,7 @@ std::vector<std::size_t> widths_of(const Lines& lines) {
   return widths;
 }
 
-/// Words in lines that fit the screen.
+/// TemplateData in lines that fit the screen.
 std::string wrapped(const std::string& text) {
   std::string lines;
   std::size_t width = 0;

@@ -142,7 +142,7 @@ Chapter written(ChapterData data, std::string_view text) {
   return Writer(std::move(data)).chapter(text);
 }
 
-std::string sentences(const std::string& name, const Words& words) {
+std::string sentences(const std::string& name, const TemplateData& words) {
   ChapterData data(name);
   data.values = words.values;
   const Chapter chapter = written(std::move(data));

@@ -31,7 +31,7 @@ namespace fingertip::studies::report::inline page {
 
 /// A chapter's data. Its template knows the names of two shown units besides: force_unit and
 /// stress_unit.
-struct ChapterData : Words {
+struct ChapterData : TemplateData {
   explicit ChapterData(std::string template_name) : name(std::move(template_name)), id(name) {}
 
   std::string name;                             ///< of the template
@@ -48,7 +48,7 @@ Chapter written(ChapterData data);
 Chapter written(ChapterData data, std::string_view text);
 
 /// The text of a template that is one paragraph; "" when nothing is left of it.
-std::string sentences(const std::string& name, const Words& words);
+std::string sentences(const std::string& name, const TemplateData& words);
 /// `text` where `value`, of which it tells, is known; "" of NaN.
 std::string if_known(double value, const std::string& text);
 /// Both texts, one after the other.

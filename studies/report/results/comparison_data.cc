@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Depths of a table where curves have no samples in common.
-constexpr std::size_t most_depths = 20;
+constexpr std::size_t max_depths = 20;
 
 /// The force of a sample at `depth`, else the one interpolated between samples around it.
 CurveForce told_force(const ComparedCurve& curve, double depth) {
@@ -90,10 +90,10 @@ void give_styles(std::vector<ComparedCurve>& curves) {
 
 /// At most so many of them, the first and the last among them.
 std::vector<double> thinned(const std::vector<double>& depths) {
-  if (depths.size() <= most_depths) return depths;
+  if (depths.size() <= max_depths) return depths;
   std::vector<double> some;
-  for (std::size_t i = 0; i < most_depths; ++i)
-    some.push_back(depths[i * (depths.size() - 1) / (most_depths - 1)]);
+  for (std::size_t i = 0; i < max_depths; ++i)
+    some.push_back(depths[i * (depths.size() - 1) / (max_depths - 1)]);
   return some;
 }
 

@@ -131,7 +131,7 @@ double loss(const Rubber& rubber, double isotropy, double bulk, double c11, doub
 
 /// Every C44 > 0 and C11 > C44 belongs to non-negative springs, so the least loss can be sought
 /// there: on a grid in their logarithms that closes in on its best point.
-Eigen::Vector2d least_loss(const Rubber& rubber, double isotropy, double bulk) {
+Eigen::Vector2d min_loss(const Rubber& rubber, double isotropy, double bulk) {
   Eigen::Vector2d best(std::log(2.0 * rubber.shear_modulus), std::log(rubber.shear_modulus));
   const auto at = [&](const Eigen::Vector2d& logs) {
     const double c44 = std::exp(logs(1));
@@ -156,7 +156,7 @@ TEST(CentralCompromise, IsTheLeastLossThatAnySpringsHave) {
       SCOPED_TRACE(testing::Message() << nu << " " << isotropy << " " << bulk);
       const Rubber rubber = rubber_of(nu);
       const ModuliFit result = compromise(rubber, isotropy, bulk);
-      const Eigen::Vector2d best = least_loss(rubber, isotropy, bulk);
+      const Eigen::Vector2d best = min_loss(rubber, isotropy, bulk);
       EXPECT_NEAR(result.achieved.c11 / best(0), 1.0, 1e-5);
       EXPECT_NEAR(result.achieved.c44 / best(1), 1.0, 1e-5);
       EXPECT_LE(loss(rubber, isotropy, bulk, result.achieved.c11, result.achieved.c44),

@@ -124,7 +124,7 @@ TEST(UniaxialModel, MeetsKnownStresses) {
 TEST(UniaxialModel, IsTheSlopeOfTheLeastEnergy) {
   const double g = 14.0;
   for (const double l : {0.0, 3.0, 84.0, 7e3}) {
-    const auto least_energy = [&](double s) {
+    const auto min_energy = [&](double s) {
       const auto energy = [&](double t) {
         const double log_j = std::log(s * t * t);
         return 0.5 * g * (s * s + 2.0 * t * t - 3.0 - 2.0 * log_j) + 0.5 * l * log_j * log_j;
@@ -139,7 +139,7 @@ TEST(UniaxialModel, IsTheSlopeOfTheLeastEnergy) {
     };
     for (const double s : stretches) {
       const double h = 1e-4;
-      const double slope = (least_energy(s + h) - least_energy(s - h)) / (2.0 * h);
+      const double slope = (min_energy(s + h) - min_energy(s - h)) / (2.0 * h);
       EXPECT_NEAR(stress(s, g, l), slope, 1e-5 * g) << l << " " << s;
     }
   }

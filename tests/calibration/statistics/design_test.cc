@@ -125,19 +125,19 @@ TEST(Design, NamesThePairsThatAreNearlyCollinear) {
 }
 
 TEST(Design, SortsByWhatTheRubberGains) {
-  std::vector<Prospect> prospects(3);
-  prospects[0] = {"fails", "", {}, "no"};
-  prospects[1] = {"rig only", "", Eigen::Vector2d(1.1, 9.0), ""};
-  prospects[2] = {"rubber", "stick", Eigen::Vector2d(2.0, 1.0), ""};
-  sort_prospects(prospects, 1);
-  EXPECT_EQ(prospects[0].name, "rubber");
-  EXPECT_EQ(prospects[2].name, "fails");
-  const std::string said = prospect_statement(prospects, {"modulus", "compliance"}, 1);
+  std::vector<MeasurementGain> gains(3);
+  gains[0] = {"fails", "", {}, "no"};
+  gains[1] = {"rig only", "", Eigen::Vector2d(1.1, 9.0), ""};
+  gains[2] = {"rubber", "stick", Eigen::Vector2d(2.0, 1.0), ""};
+  sort_by_gain(gains, 1);
+  EXPECT_EQ(gains[0].name, "rubber");
+  EXPECT_EQ(gains[2].name, "fails");
+  const std::string said = gain_statement(gains, {"modulus", "compliance"}, 1);
   EXPECT_NE(said.find("rubber would tell most (stick)"), std::string::npos) << said;
   EXPECT_NE(said.find("modulus 2 times"), std::string::npos) << said;
-  EXPECT_EQ(prospect_statement({}, {}, 1), "");
-  prospects[0].times = Eigen::Vector2d(1.05, 9.0);  // what the rubber does not gain is not meant
-  EXPECT_EQ(prospect_statement(prospects, {"modulus", "compliance"}, 1),
+  EXPECT_EQ(gain_statement({}, {}, 1), "");
+  gains[0].times = Eigen::Vector2d(1.05, 9.0);  // what the rubber does not gain is not meant
+  EXPECT_EQ(gain_statement(gains, {"modulus", "compliance"}, 1),
             "None of the further measurements tried would make the interval of modulus a tenth "
             "narrower.");
 }

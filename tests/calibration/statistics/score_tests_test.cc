@@ -200,17 +200,17 @@ TEST(Fading, OfASteadyForceIsTheClosedForm) {
   const std::vector<double> times = {0.0, 0.1, 0.5, 0.6, 2.0};
   const VectorXd forces = 3.0 * VectorXd::Map(times.data(), Index(times.size()));
   for (const double constant : {0.05, 0.7, 40.0}) {
-    const VectorXd change = fading(forces, times, constant);
+    const VectorXd change = relaxation_change(forces, times, constant);
     for (std::size_t i = 0; i < times.size(); ++i)
       EXPECT_NEAR(change(Index(i)),
                   3.0 * constant * -std::expm1(-times[i] / constant) - 3.0 * times[i], 1e-13);
   }
-  EXPECT_THROW(fading(forces, {0.0, 1.0}, 1.0), meshes::InvalidInput);
+  EXPECT_THROW(relaxation_change(forces, {0.0, 1.0}, 1.0), meshes::InvalidInput);
 }
 
 /// What is applied at once fades alone.
 TEST(Fading, OfAStepIsExponential) {
-  const VectorXd change = fading(VectorXd::Constant(3, 5.0), {1.0, 2.0, 4.0}, 1.5);
+  const VectorXd change = relaxation_change(VectorXd::Constant(3, 5.0), {1.0, 2.0, 4.0}, 1.5);
   EXPECT_DOUBLE_EQ(change(0), 0.0);
   EXPECT_NEAR(change(1), 5.0 * std::expm1(-1.0 / 1.5), 1e-14);
   EXPECT_NEAR(change(2), 5.0 * std::expm1(-3.0 / 1.5), 1e-14);
@@ -222,7 +222,8 @@ TEST(Fading, OfACurvedForceConvergesWithItsValues) {
   double error[2] = {};
   for (int k = 0; k < 2; ++k) {
     const Ramp ramp = ramp_of(force, 20 << (2 * k));
-    error[k] = std::abs(fading(ramp.forces, ramp.times, 0.8)(ramp.forces.size() - 1) - truth);
+    error[k] =
+        std::abs(relaxation_change(ramp.forces, ramp.times, 0.8)(ramp.forces.size() - 1) - truth);
   }
   EXPECT_LT(error[1], 1e-4 * std::abs(truth));
   EXPECT_GT(error[0] / error[1], 8.0) << "second order would be 16";

@@ -150,8 +150,8 @@ TEST(MeshHistory, AddsWhatTheStepsAreOff) {
 }
 
 TEST(MeshHistory, SmallForcesOfAProgramNeedNoBetterErrorThanLargeOnes) {
-  const auto with = [](double least_share) {
-    MeshHistory history(1.0, least_share);
+  const auto with = [](double min_share) {
+    MeshHistory history(1.0, min_share);
     for (const double spacing : {coarse, medium, fine}) {
       history.start_mesh(mesh(std::size_t(1e-7 / (spacing * spacing * spacing))));
       history.add(state(1e-3, 1.0 + 100.0 * spacing * spacing, spacing));

@@ -287,19 +287,19 @@ TEST(TransientPress, BalancesEnergyAndMomentumOfARubberThatRelaxesOnAProgram) {
     press.job.protocol.program = {{2e-3, 0.1, 0.0}, {2e-3, 0.0, 0.05}, {5e-4, 0.05, 0.0}};
     const auto transient = press.transient();
     const PressCourse course(press.job.protocol, true);
-    double most_inertia = 0.0, most_work = 0.0;
+    double max_inertia = 0.0, max_work = 0.0;
     for (const double place : course.samples()) {
       const PressState state = transient->advance(place);
       const TransientStep& now = transient->steps().back();
       // Of the bond itself, whose nodes the rod's acceleration loads, too.
       EXPECT_NEAR(transient->bond_force() / state.normal_force, 1.0, 1e-6) << place;
       const double spent = now.kinetic_energy + now.elastic_energy + now.dissipated_energy;
-      most_work = std::max(most_work, now.work);
-      EXPECT_LT(spent, now.work + 3e-3 * most_work) << place;
-      EXPECT_GT(spent, now.work - 1e-2 * most_work) << place;
-      most_inertia = std::max(most_inertia, std::abs(now.contact_force / now.normal_force - 1.0));
+      max_work = std::max(max_work, now.work);
+      EXPECT_LT(spent, now.work + 3e-3 * max_work) << place;
+      EXPECT_GT(spent, now.work - 1e-2 * max_work) << place;
+      max_inertia = std::max(max_inertia, std::abs(now.contact_force / now.normal_force - 1.0));
     }
-    EXPECT_GT(most_inertia, 1e-3);
+    EXPECT_GT(max_inertia, 1e-3);
     const auto& steps = transient->steps();
     EXPECT_GT(steps.back().dissipated_energy, 0.05 * steps.back().work);
   }

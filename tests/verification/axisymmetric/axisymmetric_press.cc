@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 using Matrix = Eigen::SparseMatrix<double>;
 using meshes::ContactMode;
 
-constexpr int most_rounds = 200, patient_rounds = 12;
+constexpr int max_rounds = 200, patient_rounds = 12;
 /// Out-of-balance forces over the plane's: at the end, and before contact is looked at with stick.
 constexpr double balanced = 1e-9, nearly_balanced = 1e-3;
 
@@ -174,7 +174,7 @@ class Press {
 
   /// Small strain: C_AA lambda = prescribed motion of what touches.
   bool settle(Contact& next, VectorXd& u, double height) {
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
       std::vector<Eigen::Index> held;
       std::vector<double> motion;
       for (int i = 0; i < candidates(); ++i) {
@@ -207,7 +207,7 @@ class Press {
   /// Finite strain.
   bool newton(Contact& next, VectorXd& u, double height) {
     VectorXd force;
-    for (int round = 0; round < most_rounds / 4; ++round) {
+    for (int round = 0; round < max_rounds / 4; ++round) {
       if (!body_.assemble(u, force, &tangent_)) return false;
       std::vector<char> held = body_.fixed();
       VectorXd motion = VectorXd::Zero(u.size());

@@ -61,7 +61,7 @@ WordList certainty(const RunData& run, const std::vector<Sample>& samples) {
   const Sample* absolute = largest_in(samples, &Sample::error);
   const double share = relative->relative_error(), tolerance = run.continuum.tolerance;
   const bool all = std::size_t(estimated) == samples.size(), same = absolute == relative;
-  Words words;
+  TemplateData words;
   words["error"] = percent_magnitude(share);
   words["estimated"] = all ? "" : std::to_string(estimated);
   words["all"] = std::to_string(samples.size());
@@ -238,7 +238,7 @@ WordList beside_hertz(const RunData& run, const std::vector<Sample>& samples) {
   const auto off = [&](const Sample& s) { return s.force / hertz->force(s.depth) - 1.0; };
   const Sample &first = samples.front(), &last = samples.back();
   const meshes::PressSample& deepest = run.reference.pressing().back();
-  Words words;
+  TemplateData words;
   words["radius"] = length(tip_radius(run));
   words["ball"] = !obstacle_of(run).is_plane();
   words["first"] = percent(off(first));

@@ -15,7 +15,7 @@ namespace {
 /// So far below the theory's order an observed one still counts as it, and as near to it.
 constexpr double order_slack = 0.2, order_near = 0.5;
 /// Below so much [%] it does not matter how far an element is off.
-constexpr double least_shown = 1e-3;
+constexpr double min_shown = 1e-3;
 
 using fem_reference::Check;
 using fem_reference::ConvergenceStudy;
@@ -241,7 +241,7 @@ Panel locking_panel(const std::vector<LockingPoint>& locking, const std::string&
   if (curves.empty()) return panel;
   Range x = extent_of(panel.series, &Series::x), y = extent_of(panel.series, &Series::y);
   panel.x_range = Range{1.4 * x.to, x.from / 1.4};
-  panel.y_range = Range{std::fmax(y.from / 2.0, least_shown), 2.0 * std::fmax(y.to, least_shown)};
+  panel.y_range = Range{std::fmax(y.from / 2.0, min_shown), 2.0 * std::fmax(y.to, min_shown)};
   return panel;
 }
 

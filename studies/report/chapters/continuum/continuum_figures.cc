@@ -12,8 +12,8 @@
 namespace fingertip::studies::report::inline chapters::inline continuum {
 namespace {
 
-constexpr std::size_t most_shown = 6;  ///< curves that a reader tells apart
-constexpr int rings = 80;              ///< into which a contact is divided for drawing
+constexpr std::size_t max_shown = 6;  ///< curves that a reader tells apart
+constexpr int rings = 80;             ///< into which a contact is divided for drawing
 constexpr int curve_points = 80;
 
 /// The ends of a mesh edge in the units shown, undeformed or deformed.
@@ -198,8 +198,8 @@ std::vector<double> shown_depths(const RunData& run, const std::vector<double>& 
   std::vector<double> wanted = run.depths;
   const bool of_verdict = std::any_of(computed.begin(), computed.end(),
                                       [&](double depth) { return among(wanted, depth); });
-  if (!of_verdict || wanted.size() > most_shown) {
-    const std::size_t count = std::min(most_shown, computed.size());
+  if (!of_verdict || wanted.size() > max_shown) {
+    const std::size_t count = std::min(max_shown, computed.size());
     wanted.clear();
     for (std::size_t i = 0; i < count; ++i)
       wanted.push_back(computed[count > 1 ? i * (computed.size() - 1) / (count - 1) : 0]);

@@ -20,7 +20,7 @@ using calibration::SurrogateRow;
 
 constexpr int legend_room = 205;
 /// More curves than this are told apart by their shade alone.
-constexpr std::size_t most_labels = 14;
+constexpr std::size_t max_labels = 14;
 /// More points than this merge into a band, which a line on it must be seen through.
 constexpr std::size_t many_points = 40;
 
@@ -39,7 +39,7 @@ std::string shortened(const std::string& text) {
 
 Style curve_style(std::size_t i, std::size_t count) {
   Style style = numbered_style(i);
-  if (count > most_labels) style.colour = depth_shade(i, count);
+  if (count > max_labels) style.colour = depth_shade(i, count);
   style.dash.clear();
   style.width = 1.6;
   return style;
@@ -144,7 +144,7 @@ Figure curve_figure(const Curves& curves, const std::string& name) {
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const FitCurve& curve = *curves[i];
     const Style style = curve_style(i, curves.size());
-    above.series.push_back(points(curve, style, curves.size() <= most_labels));
+    above.series.push_back(points(curve, style, curves.size() <= max_labels));
     if (curve.entry.course && !curve.entry.course->back_x.empty())
       above.series.push_back(way_back(curve, style));
     if (curve.knows(&FitDataRow::left_out))

@@ -139,7 +139,7 @@ std::string fit_answer(const Fit& fit) {
   double left_out = meshes::unknown;
   for (const FitCurve& curve : fit.curves) left_out = std::fmax(left_out, curve.left_out_error());
   const double worst = worst_residual(fit);
-  Words words;
+  TemplateData words;
   words["estimates"] = estimates_of(fit);
   words["model"] = fit.model;
   words["curves"] = std::to_string(fit.curves.size());
@@ -180,7 +180,7 @@ std::string fits_answer(const CalibrationData& data) {
   if (data.fits.size() == 1) return fit_answer(data.fits.front());
   std::size_t failed = 0;
   for (const Fit& fit : data.fits) failed += !fit.file.failed.empty();
-  Words words;
+  TemplateData words;
   words["fits"] = std::to_string(data.fits.size());
   words["failed"] = failed > 0 ? std::to_string(failed) : "";
   words["one"] = failed == 1;

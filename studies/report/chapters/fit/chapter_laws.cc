@@ -16,7 +16,7 @@ using calibration::LawEntry;
 using calibration::LawTestEntry;
 
 /// Panels of a figure, and points of a panel; a page with more is slow to read.
-constexpr std::size_t most_panels = 6, most_points = 400;
+constexpr std::size_t max_panels = 6, max_points = 400;
 constexpr const char* fit_colour = "#0072B2";
 constexpr const char* second_colour = "#D55E00";
 
@@ -45,7 +45,7 @@ Panel test_panel(const LawResult& result, const LawTestEntry& test) {
   const auto add = [&](const std::string& law, const std::string& key, const Style& style,
                        double LawDataRow::*stress) {
     panel.series.push_back(
-        stress_series(law_rows(result, law, test, most_points), over_time, key, style, stress));
+        stress_series(law_rows(result, law, test, max_points), over_time, key, style, stress));
   };
   add(taken, "measured", {"#888888", "", 1.0, 6, false, 0.5}, &LawDataRow::measured);
   if (first != taken) add(first, first, {second_colour, "(6,3)", 1.6}, &LawDataRow::computed);
@@ -57,7 +57,7 @@ Panel test_panel(const LawResult& result, const LawTestEntry& test) {
 std::vector<Figure> test_figures(const LawResult& result) {
   std::vector<Figure> figures;
   for (const LawTestEntry& test : result.taken().tests) {
-    if (figures.empty() || figures.back().panels.size() == most_panels)
+    if (figures.empty() || figures.back().panels.size() == max_panels)
       figures.push_back({fmt::format("law_tests_{}", figures.size() + 1), 860, 0, 2, {}});
     figures.back().panels.push_back(test_panel(result, test));
   }
@@ -205,21 +205,21 @@ Chapter law_chapter(const LawResult& result) {
   const bool other = file.laws.front().law != taken.law;
   if (!result.rows.empty()) chapter.figures = test_figures(result);
   const bool thinned = std::ranges::any_of(
-      taken.tests, [](const LawTestEntry& test) { return test.points > most_points; });
+      taken.tests, [](const LawTestEntry& test) { return test.points > max_points; });
   WordList figures;
   for (std::size_t i = 0; i < chapter.figures.size(); ++i) {
-    Words& figure = figures.emplace_back();
+    TemplateData& figure = figures.emplace_back();
     figure["figure"] = chapter.figures[i].name;
     figure["title"] = i == 0 ? "Tests measured and computed" : "Further tests";
     figure["law"] = taken.law;
     figure["second"] = other ? file.laws.front().law : std::string();
-    figure["thinned"] = thinned ? std::to_string(most_points) : std::string();
+    figure["thinned"] = thinned ? std::to_string(max_points) : std::string();
   }
   chapter["figures"] = std::move(figures);
   WordList failed, contradictions;
   for (const LawEntry& law : file.laws) {
     if (law.failure.empty()) continue;
-    Words& one = failed.emplace_back();
+    TemplateData& one = failed.emplace_back();
     one["law"] = law.law;
     one["failure"] = law.failure;
   }

@@ -15,7 +15,7 @@ using calibration::LawEntry;
 using calibration::LawTestEntry;
 
 /// Of a test: so many are told apart in a panel, and so many make a smooth line.
-constexpr std::size_t most_dots = 40, most_line_points = 100;
+constexpr std::size_t max_dots = 40, max_line_points = 100;
 
 std::string run_label(const MaterialRunEntry& run) {
   return (run.series.empty() ? "" : run.series + ", ") + run.name;
@@ -37,13 +37,13 @@ void add_test(const LawResult& result, const std::string& law, const LawTestEntr
   const bool fitted = test.use == "fit";
   Style style = numbered_style(place);
   const Series dots =
-      series("", test.name + ", measured", style.as_points(6), most_dots, &LawDataRow::measured);
+      series("", test.name + ", measured", style.as_points(6), max_dots, &LawDataRow::measured);
   const bool drawn = std::ranges::any_of(
       panel.series, [&](const Series& other) { return other.x == dots.x && other.y == dots.y; });
   if (!drawn) panel.series.push_back(dots);
   style.dash = fitted ? "" : "(7,4)";
   panel.series.push_back(series(test.name + (fitted ? "" : ", predicted"), "", style.as_line(),
-                                most_line_points, &LawDataRow::computed));
+                                max_line_points, &LawDataRow::computed));
 }
 
 /// A law that runs away beyond its tests must not hide them.
@@ -147,7 +147,7 @@ Chapter materials_chapter(const MaterialsData& data) {
   for (const MaterialsData::Fit& fit : data.fits) {
     if (fit.result.empty()) continue;
     results.push_back(fit.result);
-    Words& one = fits.emplace_back();
+    TemplateData& one = fits.emplace_back();
     one["table"] = fmt::format("ranking_{}", fits.size());
     one["label"] = fit.label;
     one["statement"] = as_shown(fit.result.file.statement);
@@ -164,7 +164,7 @@ std::string materials_answer(const MaterialsData& data) {
   const MaterialRunEntry* best =
       largest_in(data.runs, [](const MaterialRunEntry& run) { return -run.predicted_error; });
   const bool several = worst != best;
-  Words words;
+  TemplateData words;
   words["fits"] = std::to_string(data.fits.size());
   words["one"] = data.fits.size() == 1;
   words["best"] = best ? run_label(*best) : "";

@@ -140,7 +140,7 @@ Chapter measured_chapter(const Fit& fit, const std::string& prefix) {
   chapter.tables["repeats"] = repeat_table(fit);
   WordList groups;
   for (const Repeats& group : fit.file.repeats) {
-    Words& words = groups.emplace_back();
+    TemplateData& words = groups.emplace_back();
     const std::string name = fmt::format("{}_repeats{}", prefix, groups.size());
     words["curves"] = enumerate(group.curves);
     words["scatter"] = "up to " + percent_magnitude(widest(group));

@@ -132,7 +132,7 @@ bool same_place(const std::vector<double>& a, const std::vector<double>& b) {
   return true;
 }
 
-const MinimumEntry& least_minimum(const Fit& fit) {
+const MinimumEntry& min_minimum(const Fit& fit) {
   return *std::ranges::min_element(fit.file.minima, {}, [](const MinimumEntry& minimum) {
     return std::isfinite(minimum.loss) ? minimum.loss : std::numeric_limits<double>::infinity();
   });
@@ -142,7 +142,7 @@ const MinimumEntry& least_minimum(const Fit& fit) {
 bool is_same_minimum(const Fit& fit) {
   const std::vector<MinimumEntry>& minima = fit.file.minima;
   return minima.size() > 1 && std::ranges::all_of(minima, [&](const MinimumEntry& minimum) {
-           return same_place(minimum.estimates, least_minimum(fit).estimates);
+           return same_place(minimum.estimates, min_minimum(fit).estimates);
          });
 }
 
@@ -156,7 +156,7 @@ Table minima_table(const Fit& fit) {
   for (const MinimumEntry& minimum : fit.file.minima) {
     const std::vector<double>& estimates = minimum.estimates;
     std::vector<Cell> row{
-        {std::to_string(table.rows.size() + 1), &minimum == &least_minimum(fit) ? "reported" : ""}};
+        {std::to_string(table.rows.size() + 1), &minimum == &min_minimum(fit) ? "reported" : ""}};
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
       row.emplace_back(i < estimates.size() ? number(fit.parameters[i].factor * estimates[i])
                                             : "–");
@@ -182,7 +182,7 @@ void add_directions(WordList& words, const Fit& fit, const std::vector<Direction
                     bool open) {
   for (const DirectionEntry& entry : directions) {
     const double share = entry.relative_singular_value, width = entry.interval;
-    Words& row = words.emplace_back();
+    TemplateData& row = words.emplace_back();
     row["open"] = open;
     row["statement"] = as_shown(entry.statement);
     row["direction"] = components(fit, entry);

@@ -66,7 +66,7 @@ std::string transfer_answer(const CalibrationData& data) {
   const Outcome* best = largest_in(outcomes, [](const Outcome& outcome) {
     return outcome.complete ? -outcome.worst : meshes::unknown;
   });
-  Words words;
+  TemplateData words;
   words["fits"] = std::to_string(data.fits.size());
   words["one"] = data.fits.size() == 1;
   words["complete"] = best != nullptr;

@@ -22,7 +22,7 @@ double confined_ratio(const RunData& run, const ModelData& model) {
          confined_modulus(run.target.youngs_modulus, run.target.poissons_ratio);
 }
 
-Words published_reason(const RunData& run, const ModelData& model) {
+TemplateData published_reason(const RunData& run, const ModelData& model) {
   const ModuliEntry& m = model.moduli;
   const double along = m.E_100 / run.target.youngs_modulus;
   const double across = m.E_111 / run.target.youngs_modulus;
@@ -30,7 +30,7 @@ Words published_reason(const RunData& run, const ModelData& model) {
   const double ratio = 1.0 + model.last_force_error();
   const bool below = ratio < std::fmin(along, confined);
   const bool above = !below && ratio > std::fmax(across, shear);
-  Words words;
+  TemplateData words;
   words["along"] = factor(along);
   words["across"] = factor(across);
   words["shear"] = factor(shear);
@@ -42,11 +42,11 @@ Words published_reason(const RunData& run, const ModelData& model) {
   return words;
 }
 
-Words central_reason(const RunData& run, const ModelData& model) {
+TemplateData central_reason(const RunData& run, const ModelData& model) {
   const double bulk = model.moduli.K / run.target.bulk_modulus - 1.0;
   const double error = model.last_force_error();
   const bool quarter = std::abs(bulk) < 1e-3, soft = !quarter && bulk < 0.0 && error < 0.0;
-  Words words;
+  TemplateData words;
   words["young"] = percent(model.moduli.E_100 / run.target.youngs_modulus - 1.0);
   words["shear"] = percent(model.moduli.G / run.target.shear_modulus - 1.0);
   words["nu"] = number(model.moduli.nu_100, 3);
@@ -61,14 +61,14 @@ Words central_reason(const RunData& run, const ModelData& model) {
   return words;
 }
 
-Words hookean_reason(const RunData& run, const ModelData& model) {
+TemplateData hookean_reason(const RunData& run, const ModelData& model) {
   const ModuliEntry& m = model.moduli;
   const TargetEntry& t = run.target;
   const double worst = std::fmax(
       std::abs(m.E_100 / t.youngs_modulus - 1.0),
       std::fmax(std::abs(m.G / t.shear_modulus - 1.0), std::abs(m.K / t.bulk_modulus - 1.0)));
   const double spacing = model.summary.spacing;
-  Words words;
+  TemplateData words;
   words["worst"] = worst < 1e-6 ? "" : percent_magnitude(worst);
   words["spacing"] = if_known(spacing, with_unit(spacing, shown_units().length, 3));
   words["error"] = words["depth"] = "";
@@ -84,8 +84,9 @@ Words hookean_reason(const RunData& run, const ModelData& model) {
   return words;
 }
 
-constexpr std::pair<const char*, Words (*)(const RunData&, const ModelData&)> reasons_of_models[] =
-    {{"published", published_reason}, {"central", central_reason}, {"hookean", hookean_reason}};
+constexpr std::pair<const char*, TemplateData (*)(const RunData&, const ModelData&)>
+    reasons_of_models[] = {
+        {"published", published_reason}, {"central", central_reason}, {"hookean", hookean_reason}};
 
 /// The speed at which the lattices were pressed; "" when none was.
 std::string speed_of_presses(const RunData& run) {
@@ -102,7 +103,7 @@ Chapter reasons_chapter(const RunData& run) {
   WordList models;
   for (const ModelData& model : run.models) {
     if (std::isnan(model.moduli.E_100)) continue;
-    Words words;
+    TemplateData words;
     words["label"] = model_label(model.name);
     for (const auto& [name, reason] : reasons_of_models)
       words[name] = model.name == name ? WordList{reason(run, model)} : WordList();

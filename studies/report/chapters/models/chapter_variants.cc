@@ -113,7 +113,7 @@ WordList refinements(const StudyEntry& study, const std::vector<VariantPress>& p
     const VariantPress &coarse = own.front(), &before = own[own.size() - 2], &fine = own.back();
     const double last = std::log(worst_error(before) / worst_error(fine)) /
                         std::log(spacing(before) / spacing(fine));
-    Words& words = all.emplace_back();
+    TemplateData& words = all.emplace_back();
     words["series"] = entry.name;
     words["falls"] = worst_error(fine) < worst_error(coarse);
     words["coarse"] = coarse.front().name;
@@ -134,7 +134,7 @@ void add_figures(ChapterData& chapter, const RunData& run) {
   if (against_x.panels.empty()) {
     chapter.figures = variant_depth_figures(run.variants);
     for (const std::string& series : distinct(run.variants, &VariantRow::series)) {
-      Words& words = depths.emplace_back();
+      TemplateData& words = depths.emplace_back();
       words["figure"] = chapter.figures[depths.size() - 1].name;
       words["series"] = series;
     }
@@ -151,7 +151,7 @@ void add_later_figures(ChapterData& chapter, const std::vector<LaterRow>& table)
   WordList all;
   const std::vector<std::string> series = distinct(table, &LaterRow::series);
   for (Figure& figure : variant_later_figures(table)) {
-    Words& words = all.emplace_back();
+    TemplateData& words = all.emplace_back();
     words["figure"] = figure.name;
     words["series"] = series[all.size() - 1];
     chapter.figures.push_back(std::move(figure));
@@ -166,7 +166,7 @@ std::string variants_answer(const RunData& run) {
   const VariantPress* worst = largest_in(presses, worst_error);
   const VariantPress* best =
       largest_in(presses, [](const VariantPress& press) { return -worst_error(press); });
-  Words words;
+  TemplateData words;
   words["complete"] = best != nullptr;
   words["presses"] = std::to_string(presses.size());
   words["best"] = best ? full_name(*best) : "";

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int key_room = 215;
 /// More curves than this are told apart by their shade alone.
-constexpr std::size_t most_named = 9;
+constexpr std::size_t max_named = 9;
 
 /// Up to four of the depths, the first and the last among them.
 std::vector<double> shown_depths(const std::vector<VariantRow>& table) {
@@ -71,8 +71,8 @@ void add_presses(Panel& panel, const std::vector<VariantPress>& presses, const V
     const std::string& name = presses[i].front().name;
     Style style = numbered_style(i);
     style.width = 1.6;
-    if (count > most_named) style.colour = depth_shade(i, count);
-    panel.series.push_back(curve(count > most_named ? "" : name, name, style, presses[i],
+    if (count > max_named) style.colour = depth_shade(i, count);
+    panel.series.push_back(curve(count > max_named ? "" : name, name, style, presses[i],
                                  in(shown_units().length, &VariantRow::indentation), value));
   }
 }

@@ -203,7 +203,7 @@ std::string control_answer(const std::vector<MovingPress>& presses) {
   const double speed = worst_of(presses, &TrackingEntry::speed_deviation);
   double force = meshes::unknown;
   for (const MovingPress& press : presses) force = std::fmax(force, press.force_error);
-  Words words;
+  TemplateData words;
   words["speed"] = if_known(speed, percent_magnitude(speed));
   const double tilt = worst_of(presses, &TrackingEntry::tilt_deg);
   words["tilt"] = if_known(tilt, degrees(tilt));

@@ -208,7 +208,7 @@ std::string grasp_answer(const std::vector<GraspRun>& grasps) {
       strongest = std::fmax(strongest, surplus);
   }
   const std::vector<GraspRun> released = released_of(grasps);
-  Words words;
+  TemplateData words;
   words["single"] = grasps.size() == 1;
   words["fate"] = grasps.empty() ? "" : grasps.front().fate();
   words["weakest"] = if_known(weakest, percent(weakest));

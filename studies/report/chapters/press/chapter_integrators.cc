@@ -88,7 +88,7 @@ std::string integrators_answer(const std::vector<MovingPress>& presses) {
   const MovingPress* best = largest_in(presses, [](const MovingPress& press) {
     return is_compared(press) ? -press.change : meshes::unknown;
   });
-  Words words;
+  TemplateData words;
   words["beside"] = best ? best->beside : "";
   words["press"] = best ? best->label : "";
   words["change"] = best ? percent_magnitude(best->change) : "";

@@ -16,7 +16,7 @@ namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
 /// Rows of a table that a reader takes in; the figure and its CSV have every sample.
-constexpr std::size_t most_rows = 20;
+constexpr std::size_t max_rows = 20;
 
 const Style single{"#0072B2", "", 2.2, 7};
 
@@ -40,7 +40,7 @@ Panel curve_panel(SampleRange samples, const SampleColumn& over, const SampleCol
     label->front() = char(std::tolower(label->front()));
   Panel panel{.x_label = x_label,
               .y_label = y_label,
-              .series = {curve("", "press", samples.size() > most_rows ? single.as_line() : single,
+              .series = {curve("", "press", samples.size() > max_rows ? single.as_line() : single,
                                samples, in(over.unit, over.value), in(column.unit, column.value))},
               .key = ""};
   begin_at_zero(panel);
@@ -87,7 +87,7 @@ bool significant(SampleRange samples, double meshes::PressSample::*force) {
 std::vector<meshes::PressSample> thinned(SampleRange samples) {
   std::size_t every = 1;
   for (const std::size_t step : {2, 5, 10, 20, 50, 100, 200, 500, 1000})
-    if ((samples.size() + every - 1) / every > most_rows) every = step;
+    if ((samples.size() + every - 1) / every > max_rows) every = step;
   std::vector<meshes::PressSample> some;
   for (std::size_t i = (samples.size() - 1) % every; i < samples.size(); i += every)
     some.push_back(samples[i]);
@@ -211,7 +211,7 @@ Chapter sliding_chapter(const meshes::PressResponse& response) {
 }
 
 std::string press_answer(const meshes::PressResponse& response) {
-  Words words;
+  TemplateData words;
   for (const char* name : {"depth", "force", "radius", "moved", "held", "push"}) words[name] = "";
   if (response.empty()) return sentences("answer_press", words);
   const meshes::PressSample& last = response.pressing().back();
@@ -264,7 +264,7 @@ Chapter modes_chapter(const std::vector<VibrationMode>& modes) {
 std::string modes_answer(const std::vector<VibrationMode>& modes) {
   if (modes.empty()) return "";
   const VibrationMode& first = modes.front();
-  Words words;
+  TemplateData words;
   words["first"] = number(first.frequency, 4);
   words["motion"] = first.motion;
   words["modes"] = std::to_string(modes.size());

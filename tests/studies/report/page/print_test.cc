@@ -68,8 +68,8 @@ TEST(PrintedPage, HighFiguresLeaveNoSheetEmpty) {
   Page page;
   page.title = "A page";
   page.answer = "A sentence.";
-  page.chapters.push_back({"one", "One", {Paragraph{"", "Words."}, figure("high", 1300)}});
-  page.chapters.push_back({"two", "Two", {Paragraph{"", "Words."}, figure("low", 200)}});
+  page.chapters.push_back({"one", "One", {Paragraph{"", "TemplateData."}, figure("high", 1300)}});
+  page.chapters.push_back({"two", "Two", {Paragraph{"", "TemplateData."}, figure("low", 200)}});
   // The words, the high figure, the second chapter.
   EXPECT_LE(sheets(page), 3);
   EXPECT_GE(sheets(page), 2);

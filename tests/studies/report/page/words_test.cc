@@ -37,7 +37,7 @@ Table one_row() {
   return table;
 }
 
-TEST(Words, MakeTheBlocksOfATemplate) {
+TEST(TemplateData, MakeTheBlocksOfATemplate) {
   ChapterData data("test");
   data.id = "place";
   data["who"] = "central";
@@ -78,7 +78,7 @@ TEST(Words, MakeTheBlocksOfATemplate) {
   EXPECT_EQ(paragraph(7).text, "Of central.");
 }
 
-TEST(Words, TakeNoValueForTheirGrammar) {
+TEST(TemplateData, TakeNoValueForTheirGrammar) {
   for (const char* text : {"{{value}}", "{{#value}}\n{{value}}\n{{/value}}", "[table x] {{value}}",
                            "[figure x] {{value}} | {{value}}", "# {{value}}"}) {
     ChapterData data = data_with("value", hostile);
@@ -98,7 +98,7 @@ TEST(Words, TakeNoValueForTheirGrammar) {
   EXPECT_EQ(written(data_with("value", hostile), "# {{value}}").title, hostile);
 }
 
-TEST(Words, SaySoWhenTemplateAndDataDoNotFit) {
+TEST(TemplateData, SaySoWhenTemplateAndDataDoNotFit) {
   const auto refuses = [](const std::string& text, ChapterData data = data_with("a", "x")) {
     EXPECT_THROW(written(std::move(data), text), std::logic_error) << text;
   };
@@ -113,7 +113,7 @@ TEST(Words, SaySoWhenTemplateAndDataDoNotFit) {
   refuses("[table other] x", data);
   data = ChapterData("test");
   data.listings["one"] = "x";
-  refuses("Words.", data);
+  refuses("TemplateData.", data);
   EXPECT_THROW(written(ChapterData("no such template")), std::logic_error);
 }
 
@@ -127,7 +127,7 @@ std::set<std::string> caught(const std::string& text, const std::string& pattern
 }
 
 // The branches that no run of the tests takes are checked, too: by their names alone.
-TEST(Words, EveryNameInATemplateIsInTheCode) {
+TEST(TemplateData, EveryNameInATemplateIsInTheCode) {
   const fs::path folder = fs::path(FINGERTIP_SOURCES) / "studies/report";
   std::string code;
   for (const auto& entry : fs::recursive_directory_iterator(folder))

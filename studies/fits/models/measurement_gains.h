@@ -45,16 +45,17 @@ std::vector<double> theory_at_values(const FitInput& input);
 
 /// What the curves of `input`, with forces, tell of its parameters there: their covariance, and how
 /// every one of its candidates would narrow it, best first.
-struct Outlook {
+struct MeasurementGains {
   Eigen::MatrixXd covariance;
-  std::vector<calibration::Prospect> prospects;
+  std::vector<calibration::MeasurementGain> gains;
 };
 
 /// `deviation` of every force where curves have no sigma. Presses of candidates are computed in
-/// `folder`/next, jobs by `context`; one that fails says so in its prospect. `go_on` hears the
+/// `folder`/next, jobs by `context`; one that fails says so in its entry. `go_on` hears the
 /// share of candidates that are done and which one is at work; false ends it with Interrupted.
-Outlook outlook(const FitInput& input, const FitModels& models, const Eigen::VectorXd& parameters,
-                double deviation, const std::filesystem::path& folder, const JobContext& context,
-                const std::function<bool(double share, const std::string& name)>& go_on);
+MeasurementGains measurement_gains(
+    const FitInput& input, const FitModels& models, const Eigen::VectorXd& parameters,
+    double deviation, const std::filesystem::path& folder, const JobContext& context,
+    const std::function<bool(double share, const std::string& name)>& go_on);
 
 }  // namespace fingertip::studies::inline fits::inline models

@@ -1,4 +1,4 @@
-#include "studies/fits/models/fit_prospects.h"
+#include "studies/fits/models/measurement_gains.h"
 
 #include <fmt/format.h>
 
@@ -17,8 +17,8 @@ using calibration::Curve;
 using calibration::CurveSlopes;
 using calibration::FreeParameter;
 using calibration::MaterialParameter;
+using calibration::MeasurementGain;
 using calibration::Observations;
-using calibration::Prospect;
 using calibration::Rig;
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Nothing is known better than this share of the largest force.
-constexpr double least_noise = 1e-6;
+constexpr double min_noise = 1e-6;
 
 /// Whether it moves with a machine, not with one of its presses.
 bool is_of_the_machine(MaterialParameter parameter) {
@@ -72,7 +72,7 @@ VectorXd Noise::of(const VectorXd& forces) const {
       sigma(i) = meshes::interpolated(force_, sigma_, std::min(force, force_.back())) *
                  std::max(1.0, force / force_.back());
   }
-  return sigma.cwiseMax(least_noise * forces.cwiseAbs().maxCoeff());
+  return sigma.cwiseMax(min_noise * forces.cwiseAbs().maxCoeff());
 }
 
 namespace {
@@ -306,24 +306,25 @@ Joint with_blank(Joint joint, const VectorXd& parameters, const VectorXd& standa
 
 }  // namespace
 
-Outlook outlook(const FitInput& input, const FitModels& models, const VectorXd& parameters,
-                double deviation, const fs::path& folder, const JobContext& context,
-                const std::function<bool(double share, const std::string& name)>& go_on) {
+MeasurementGains measurement_gains(
+    const FitInput& input, const FitModels& models, const VectorXd& parameters, double deviation,
+    const fs::path& folder, const JobContext& context,
+    const std::function<bool(double share, const std::string& name)>& go_on) {
   const Joint known = joint_of(input, models, parameters, deviation);
-  Outlook result{known.covariance(), {}};
+  MeasurementGains result{known.covariance(), {}};
   const VectorXd before = result.covariance.diagonal().cwiseSqrt();
   const Noise noise(curves_of(input), deviation);
   for (const Candidate& candidate : input.candidates) {
-    Prospect& prospect = result.prospects.emplace_back();
-    prospect.name = candidate.name;
-    prospect.press = candidate.press;
-    prospect.failure = candidate.refused;
+    MeasurementGain& entry = result.gains.emplace_back();
+    entry.name = candidate.name;
+    entry.press = candidate.press;
+    entry.failure = candidate.refused;
     const auto own_go_on = [&] {
       return go_on(double(&candidate - input.candidates.data()) / double(input.candidates.size()),
                    candidate.name);
     };
     if (!own_go_on()) throw meshes::Interrupted("further measurements not weighed");
-    if (!prospect.failure.empty()) continue;
+    if (!entry.failure.empty()) continue;
     try {
       Joint joint;
       if (candidate.blank) {
@@ -336,14 +337,14 @@ Outlook outlook(const FitInput& input, const FitModels& models, const VectorXd& 
             with_press(known, input, made_anew(input, candidate.depth), models, parameters, noise);
       }
       const VectorXd after = joint.covariance().diagonal().cwiseSqrt().head(before.size());
-      prospect.times = before.cwiseQuotient(after).cwiseMax(1.0);
+      entry.times = before.cwiseQuotient(after).cwiseMax(1.0);
     } catch (const meshes::NotConverged& error) {
-      prospect.failure = error.what();
+      entry.failure = error.what();
     } catch (const meshes::InvalidInput& error) {
-      prospect.failure = error.what();
+      entry.failure = error.what();
     }
   }
-  calibration::sort_prospects(result.prospects, material_parameters(input));
+  calibration::sort_by_gain(result.gains, material_parameters(input));
   return result;
 }
 
