@@ -41,16 +41,17 @@ void for_each_patch(const std::array<Vector3, 3>& corners, double longest, doubl
   for_each_patch({middle, b, c}, longest, 0.5 * area, visit);
 }
 
-/// Where the way from one point over the edge a, b to another one is shortest, nearly.
+/// Where the way from one point over the edge a, b to another one is shortest: straight with the
+/// facets beside the edge unfolded.
 Vector3 crossing(const Vector3& a, const Vector3& b, const Vector3& from, const Vector3& to) {
-  const auto at = [&](double t) -> Vector3 { return a + t * (b - a); };
-  const auto way = [&](double t) { return (at(t) - from).norm() + (at(t) - to).norm(); };
-  double low = 0.0, high = 1.0;
-  for (int third = 0; third < 12; ++third) {
-    const double left = (2.0 * low + high) / 3.0, right = (low + 2.0 * high) / 3.0;
-    (way(left) < way(right) ? high : low) = way(left) < way(right) ? right : left;
-  }
-  return at(0.5 * (low + high));
+  const Vector3 edge = b - a;
+  const double square = edge.squaredNorm();
+  if (square == 0.0) return a;
+  const auto along = [&](const Vector3& w) { return edge.dot(w - a) / square; };
+  const auto off = [&](const Vector3& w) { return (w - a - along(w) * edge).norm(); };
+  const double before = off(from), behind = off(to), sum = before + behind;
+  const double t = sum > 0.0 ? (along(from) * behind + along(to) * before) / sum : along(from);
+  return a + std::clamp(t, 0.0, 1.0) * edge;
 }
 
 /// Facets in one cube of space that face the same way, within 55 degrees.

@@ -239,6 +239,10 @@ TEST(Solid, FindsItsThinnestWall) {
   // The rim of a cone is a wedge, which is no wall.
   const auto cone = fingers::revolved({{0.0, 0.0}, {0.01, 0.0}, {0.0, 0.02}}, 64);
   EXPECT_GT(Solid(cone, base).wall(), 0.009);
+  // Nor does one begin at slivers beside a long edge, which the rim of the bond leaves.
+  auto prism = fingers::revolved({{0.0, 0.0}, {1e-3, 0.0}, {1e-3, 1.0965e-3}, {0.0, 1.3965e-3}}, 4);
+  for (Vector3& w : prism.vertices) w = Vector3(w.x() - 0.0806 * w.z(), 0.7188 * w.y(), w.z());
+  EXPECT_GT(Solid(prism, {{{2, true, 1.0965e-5}}}).wall(), 1e-3);
 }
 
 TEST(Solid, MergesCornersAndKnowsItsContent) {
