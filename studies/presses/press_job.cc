@@ -7,9 +7,12 @@
 #include "lattice/press/press.h"
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/press_task.h"
+#include "lattice/press/setup_fields.h"
+#include "lattice/press/static_press.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
 #include "source_hash.h"
+#include "studies/files/run_tables.h"
 #include "studies/presses/controller_choice.h"
 #include "studies/presses/journal.h"
 #include "studies/presses/pace.h"
@@ -17,7 +20,6 @@
 #include "studies/presses/pictures/snapshot_files.h"
 #include "studies/presses/press_notes.h"
 #include "studies/presses/program_summary.h"
-#include "studies/presses/static_press_job.h"
 #include "studies/presses/tracking.h"
 
 namespace fingertip::studies::inline presses {
@@ -108,17 +110,58 @@ void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path
   context.log("step " + meshes::to_text(outcome.step.step) + " s: " + outcome.step.explanation);
 }
 
+PressSummary summary_of(const lattice::PressSetup& setup, const lattice::StaticOutcome& outcome,
+                        const std::string& status) {
+  PressSummary summary = press_summary_head(setup, status);
+  summary.static_census = {long(outcome.sectors), long(outcome.particles), long(outcome.springs),
+                           long(outcome.cells),   long(outcome.unknowns),  outcome.volume,
+                           outcome.exact_volume};
+  summary.effort = {outcome.steps, outcome.newton_iterations, outcome.factorisations};
+  summary.program = stage_entries(setup.protocol, outcome.response);
+  summary.smallest_jacobian = outcome.smallest_jacobian;
+  summary.wall_time = outcome.wall_time;
+  return summary;
+}
+
+void write_contact(const lattice::StaticOutcome& outcome, const fs::path& folder) {
+  std::vector<ContactRow> rows;
+  for (const lattice::StaticContactPoint& point : outcome.contact)
+    rows.push_back({point.rest, point.deformed, point.pressure});
+  meshes::write_rows(rows, folder / "contact.csv");
+}
+
+void run_static_job(const lattice::PressSetup& setup, const fs::path& folder,
+                    const JobContext& context) {
+  Journal<lattice::StaticOutcome> journal(
+      folder, context, "pressing",
+      [&](const lattice::StaticOutcome& outcome, const std::string& status) {
+        outcome.response.write_csv(folder / "response.csv");
+        meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
+      },
+      std::chrono::milliseconds::zero());
+  const lattice::StaticOutcome outcome = journal.run([&](const lattice::StaticObserver& observe) {
+    return lattice::run_static_press(setup, observe, true);
+  });
+  write_contact(outcome, folder);
+  write_shapes(outcome, folder);
+}
+
 }  // namespace
 
 Job press_job(const lattice::PressSetup& setup, int movie_pictures) {
-  if (setup.protocol.mode == meshes::DriveMode::equilibrium) return static_press_job(setup);
   Job job;
   job.kind = "press";
   job.inputs = inputs_of(setup);
-  if (movie_pictures > 0) job.inputs["movie"] = movie_pictures;
   job.source_hash = source_hash::lattice;
-  job.repeatable = repeatable(setup);
   job.weight = press_weight(setup);
+  if (setup.protocol.mode == meshes::DriveMode::equilibrium) {
+    job.run = [setup](const fs::path& folder, const JobContext& context) {
+      run_static_job(setup, folder, context);
+    };
+    return job;
+  }
+  if (movie_pictures > 0) job.inputs["movie"] = movie_pictures;
+  job.repeatable = repeatable(setup);
   job.run = [setup, movie_pictures](const fs::path& folder, const JobContext& context) {
     run_press_job(setup, movie_pictures, folder, context);
   };
