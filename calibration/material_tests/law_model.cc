@@ -56,6 +56,45 @@ Sized<Number> sized(const LawChoice& choice, const std::array<Number, 6>& c) {
   return law;
 }
 
+void check_modulus(double g) {
+  if (!(g > 0.0) || !std::isfinite(g))
+    throw meshes::InvalidInput({"rubber.shear_modulus", meshes::to_text(g) + " Pa",
+                                "the coefficients must make a positive shear modulus",
+                                "give tests that reach small strain"});
+}
+
+/// With derivatives by its coefficients.
+using Jet = ceres::Jet<double, 6>;
+Sized<Jet> law_with_slopes(const LawChoice& choice, const VectorXd& coefficients) {
+  std::array<Jet, 6> c;
+  for (int i = 0; i < int(law_coefficients(choice).size()); ++i)
+    c[std::size_t(i)] = Jet(coefficients(i), i);
+  const Sized<Jet> law = sized(choice, c);
+  check_modulus(law.shear_modulus.a);
+  return law;
+}
+
+/// Stress parts of the law at a deformation and their derivatives, two columns each; NotConverged
+/// beyond its limit.
+void put_parts(RubberLaw choice, const Sized<Jet>& law, TestKind kind, double deformation,
+               Eigen::Ref<Eigen::RowVectorXd> row) {
+  const auto response =
+      principal_response(choice, law.shape, principal_stretches(kind, deformation));
+  if (!std::isfinite(response.energy.a))
+    throw meshes::NotConverged("the stretch " + meshes::to_text(deformation) +
+                               " is beyond the limit of the gent law");
+  std::array<Jet, 3> kirchhoff;
+  for (std::size_t k = 0; k < 3; ++k) kirchhoff[k] = law.shear_modulus * response.kirchhoff[k];
+  for (int column = 0; 2 * column + 1 < row.size(); ++column) {
+    Three tau;
+    for (std::size_t k = 0; k < 3; ++k)
+      tau[k] = column == 0 ? kirchhoff[k].a : kirchhoff[k].v(column - 1);
+    const auto parts = stress_parts(kind, tau, deformation);
+    row(2 * column) = parts[0];
+    row(2 * column + 1) = parts[1];
+  }
+}
+
 }  // namespace
 
 std::string name(const LawChoice& choice) {
@@ -117,12 +156,8 @@ SizedLaw sized_law(const LawChoice& choice, const VectorXd& c) {
   std::array<double, 6> all{};
   std::copy_n(c.data(), law_coefficients(choice).size(), all.begin());
   const Sized<double> law = sized(choice, all);
-  const double g = law.shear_modulus;
-  if (!(g > 0.0) || !std::isfinite(g))
-    throw meshes::InvalidInput({"rubber.shear_modulus", meshes::to_text(g) + " Pa",
-                                "the coefficients must make a positive shear modulus",
-                                "give tests that reach small strain"});
-  return {g, {choice.law, meshes::VolumetricLaw::quadratic, law.shape}};
+  check_modulus(law.shear_modulus);
+  return {law.shear_modulus, {choice.law, meshes::VolumetricLaw::quadratic, law.shape}};
 }
 
 double test_stress(const SizedLaw& law, TestKind kind, StressMeasure measure, double deformation) {
@@ -159,37 +194,17 @@ CurveSlopes LawModel::volume(const VectorXd& parameters) const {
   return result;
 }
 
-void LawModel::add_parts(const VectorXd& parameters, double deformation,
-                         Eigen::Ref<Eigen::RowVectorXd> row) const {
-  using Jet = ceres::Jet<double, 6>;
-  std::array<Jet, 6> c;
-  for (int i = 0; i < int(law_coefficients(choice_).size()); ++i)
-    c[std::size_t(i)] = Jet(parameters(i), i);
-  const Sized<Jet> law = sized(choice_, c);
-  const auto response =
-      principal_response(choice_.law, law.shape, principal_stretches(test_.kind, deformation));
-  if (!std::isfinite(response.energy.a))
-    throw meshes::NotConverged("the stretch " + meshes::to_text(deformation) +
-                               " is beyond the limit of the gent law");
-  std::array<Jet, 3> kirchhoff;
-  for (std::size_t k = 0; k < 3; ++k) kirchhoff[k] = law.shear_modulus * response.kirchhoff[k];
-  for (int column = 0; 2 * column + 1 < row.size(); ++column) {
-    Three tau;
-    for (std::size_t k = 0; k < 3; ++k)
-      tau[k] = column == 0 ? kirchhoff[k].a : kirchhoff[k].v(column - 1);
-    const auto parts = stress_parts(test_.kind, tau, deformation);
-    row(2 * column) = parts[0];
-    row(2 * column + 1) = parts[1];
-  }
+PartTable LawModel::parts_at(const std::vector<double>& deformations,
+                             const VectorXd& parameters) const {
+  const Sized<Jet> law = law_with_slopes(choice_, parameters);
+  PartTable parts(Index(deformations.size()), 2 + 2 * Index(law_coefficients(choice_).size()));
+  for (std::size_t i = 0; i < deformations.size(); ++i)
+    put_parts(choice_.law, law, test_.kind, deformations[i], parts.row(Index(i)));
+  return parts;
 }
 
 PartTable LawModel::equilibrium_parts(const VectorXd& parameters) const {
-  static_cast<void>(sized_law(choice_, parameters));  // refuses what is no law
-  const std::vector<double>& states = course_.states();
-  PartTable parts(Index(states.size()), 2 + 2 * Index(law_coefficients(choice_).size()));
-  for (std::size_t i = 0; i < states.size(); ++i)
-    add_parts(parameters, states[i], parts.row(Index(i)));
-  return parts;
+  return parts_at(course_.states(), parameters);
 }
 
 double LawModel::scaled(std::size_t p, const Eigen::RowVector2d& parts) const {
@@ -215,10 +230,7 @@ CurveSlopes LawModel::evaluate(const VectorXd& parameters) {
   };
   result.value.setZero();
   if (relaxation.empty() || course_.empty()) {
-    static_cast<void>(sized_law(choice_, parameters));
-    PartTable parts(points, 2 + 2 * own);
-    for (Index p = 0; p < points; ++p)
-      add_parts(parameters, test_.deformation[std::size_t(p)], parts.row(p));
+    const PartTable parts = parts_at(test_.deformation, parameters);
     for (Index i = -1; i < own; ++i) add(i, parts, 2 * i + 2, 1.0);
     return result;
   }

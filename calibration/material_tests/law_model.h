@@ -91,9 +91,9 @@ class LawModel final : public ForwardModel {
 
  private:
   CurveSlopes volume(const Eigen::VectorXd& parameters) const;
-  /// Of the deformation at a state; NotConverged beyond the law's limit.
-  void add_parts(const Eigen::VectorXd& parameters, double deformation,
-                 Eigen::Ref<Eigen::RowVectorXd> row) const;
+  /// stress_parts at deformations, and their derivatives; NotConverged beyond the law's limit.
+  PartTable parts_at(const std::vector<double>& deformations,
+                     const Eigen::VectorXd& parameters) const;
 
   MaterialTest test_;
   std::vector<double> scales_;
