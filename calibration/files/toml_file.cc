@@ -42,9 +42,10 @@ toml::table parsed_toml(const std::filesystem::path& file, const std::string& ag
   // Copying nothing sets the fail bit, so this refuses empty files and folders, too.
   if (!in.is_open() || !(content << in.rdbuf()))
     refuse(0, "the file cannot be read or is empty", "check path and rights, or " + again);
-  if (nests_too_deep(content.str())) refuse(0, "a key has hundreds of dotted parts", again);
+  const std::string text = content.str();
+  if (nests_too_deep(text)) refuse(0, "a key has hundreds of dotted parts", again);
   try {
-    return toml::parse(content.str(), file.string());
+    return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     refuse(int(error.source().begin.line), "not valid TOML: " + std::string(error.description()),
            "mend the line, or " + again);

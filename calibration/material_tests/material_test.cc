@@ -73,7 +73,7 @@ std::vector<Violation> MaterialTest::violations() const {
         "sort the points, and look at the definition of strain and its unit");
     break;
   }
-  if (course != TestCourse::slow) std::ranges::move(time_violations(), std::back_inserter(found));
+  if (course != TestCourse::slow) append(found, time_violations());
   const auto finite = [](double value) { return std::isfinite(value); };
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (!std::ranges::all_of(stress, finite))

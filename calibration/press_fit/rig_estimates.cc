@@ -53,7 +53,7 @@ double apparent_touch(const Curve& curve, double zero, double compliance, double
 }
 
 Prior compliance_of_blank(const Curve& curve) {
-  constexpr double lowest_of_line = 0.1, min_known = 1e-4;
+  constexpr double lowest_of_line = 0.1, min_error = 1e-4;
   constexpr std::size_t min_forces = 6;
   const double zero = curve.y.front(), largest = *std::ranges::max_element(curve.y) - zero;
   std::vector<double> x, y;
@@ -86,7 +86,7 @@ Prior compliance_of_blank(const Curve& curve) {
                  apart = std::abs(1.0 / lower.slope - 1.0 / upper.slope);
     if (apart > 3.0 * noise) bent = apart / std::sqrt(12.0);
   }
-  return {c, std::max(std::hypot(error, bent), min_known * c)};
+  return {c, std::max(std::hypot(error, bent), min_error * c)};
 }
 
 }  // namespace fingertip::calibration::inline press_fit

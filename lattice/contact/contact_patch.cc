@@ -25,7 +25,7 @@ constexpr double min_q = 1.25, max_q = 1.75, max_uneven = 3.0;
 /// Where the points that bear have most of the ellipse's area, they miss none of their own: the
 /// least q and the largest of the other are stricter there. A flat disc has 4/3 and 0.80 of the
 /// area, a rectangle 7/5 and 0.76.
-constexpr double max_of_area = 0.75, min_q_there = 1.36, max_uneven_there = 1.5;
+constexpr double bearing_share = 0.75, min_q_there = 1.36, max_uneven_there = 1.5;
 /// Second moment of a point's own patch over that of the pressure, along the narrower axis, where
 /// points are enough: on a flat disc 200. Of fewer the moments are chance: on round fingers from
 /// 0.007 on they looked like no ellipse.
@@ -136,7 +136,7 @@ ContactPatch contact_patch(const ForceMoments& moments, int sectors) {
   const double area = std::numbers::pi * square;
   if (!is_line && own < fine_enough * spread.selfadjointView<Eigen::Lower>().eigenvalues()[0]) {
     const double uneven = std::abs(central.fourth(0)) + std::abs(central.fourth(1));
-    const bool flat = sums.touched > max_of_area * area;
+    const bool flat = sums.touched > bearing_share * area;
     if (q < (flat ? min_q_there : min_q) || q > max_q ||
         uneven > (flat ? max_uneven_there : max_uneven))
       return {std::sqrt(sums.touched / std::numbers::pi), meshes::unknown};

@@ -288,15 +288,12 @@ std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
 
 std::vector<Violation> PressSetup::violations() const {
   std::vector<Violation> found = geometry.violations();
-  const auto append = [&found](const std::vector<Violation>& more) {
-    found.insert(found.end(), more.begin(), more.end());
-  };
-  append(rubber.violations());
-  append(protocol.violations(geometry));
-  append(beyond_the_model(*this));
-  append(lattice.violations(geometry, rubber));
-  append(controller.violations());
-  append(hardware.violations());
+  append(found, rubber.violations());
+  append(found, protocol.violations(geometry));
+  append(found, beyond_the_model(*this));
+  append(found, lattice.violations(geometry, rubber));
+  append(found, controller.violations());
+  append(found, hardware.violations());
   if (duration && !positive(*duration)) {
     found.push_back({"press.duration", meshes::to_text(*duration) + " s",
                      "the duration must be finite and positive", "or leave it out"});

@@ -2,8 +2,8 @@
 /// What follows from a deformation gradient is the caller's (hyperelastic_law.h,
 /// lattice/kernels/cell_hyperelastic.h), so are stretches beyond the limit of a gent law.
 ///
-/// Everything is inlined: kernels of several instruction sets ask, so no compiled copy may be
-/// shared.
+/// What kernels ask for is always inlined: they are compiled for several instruction sets, and no
+/// compiled copy may be shared.
 #pragma once
 
 #include <array>

@@ -107,7 +107,7 @@ void read_json(const Json& json, Value& value) {
 }
 
 /// Writes the struct atomically. Names of files need not be UTF-8, JSON must.
-template <typename Struct>
+template <typename Struct = nlohmann::ordered_json>
 void write_json_file(const Struct& content, const std::filesystem::path& file) {
   const std::string text =
       json_of(content).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);

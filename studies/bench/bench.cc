@@ -14,7 +14,6 @@
 #include "studies/bench/ratios.h"
 #include "studies/files/json_entry.h"
 #include "studies/fits/runs/moduli_job.h"
-#include "studies/jobs/json_file.h"
 #include "studies/jobs/provenance.h"
 #include "studies/presses/pace.h"
 #include "studies/presses/press_job.h"
@@ -57,16 +56,16 @@ ordered_json kernel_part(Session& session, const BenchPlan& plan) {
   job.run = [plan](const fs::path& folder, const JobContext& context) {
     const KernelRounds rounds = measure_kernels(plan, folder, context);
     const Ratios ratios = ratios_of(rounds);
-    write_json({{"kernels", kernels_of(rounds, false)},
-                {"ratios", ratios.values},
-                {"missing_ratios", ratios.missing},
-                {"ratio_rounds", ratios.rounds},
-                {"peers", kernels_of(rounds, true)},
-                {"parts", parts_of(rounds)},
-                {"missing_programs", rounds.missing},
-                {"versions", rounds.versions},
-                {"probes", probes_of(rounds)}},
-               folder / "kernels_all.json");
+    meshes::write_json_file({{"kernels", kernels_of(rounds, false)},
+                             {"ratios", ratios.values},
+                             {"missing_ratios", ratios.missing},
+                             {"ratio_rounds", ratios.rounds},
+                             {"peers", kernels_of(rounds, true)},
+                             {"parts", parts_of(rounds)},
+                             {"missing_programs", rounds.missing},
+                             {"versions", rounds.versions},
+                             {"probes", probes_of(rounds)}},
+                            folder / "kernels_all.json");
   };
   const PlannedJob planned{"kernels", job, false};
   session.run(planned);

@@ -9,7 +9,6 @@
 #include "meshes/tables/fields_json.h"
 #include "studies/bench/continua.h"
 #include "studies/fits/setup/fit_curves.h"
-#include "studies/jobs/json_file.h"
 #include "studies/presses/pace.h"
 #include "studies/presses/press_job.h"
 #include "studies/presses/press_setup.h"
@@ -61,7 +60,7 @@ void run_pace(lattice::PressSetup setup, int threads, const std::filesystem::pat
   runs = runs_of(outcome);
   while (timing.runs < runs) run();
   outcome.response.write_csv(folder / "response.csv");
-  write_json(
+  meshes::write_json_file(
       {{"real_time_factor", meshes::json_of(timing.slowest.wall)},
        {"real_time_factor_processor",
         threads == 1 ? meshes::json_of(timing.slowest.processor) : nlohmann::ordered_json()},

@@ -85,8 +85,7 @@ Case load_case(const fs::path& file, const ConfigSource& source) {
   } catch (const ConfigError& error) {
     problems = error.violations();
   }
-  const std::vector<meshes::Violation> more = read_case_table(file, study_case);
-  problems.insert(problems.end(), more.begin(), more.end());
+  append(problems, read_case_table(file, study_case));
   if (!problems.empty()) throw ConfigError(problems);
   study_case.text = case_toml(study_case);
   return study_case;

@@ -124,7 +124,7 @@ Planner::Planner(const Case& study_case) : case_(study_case) {
     try {
       add(run);
     } catch (const ConfigError& error) {
-      problems.insert(problems.end(), error.violations().begin(), error.violations().end());
+      append(problems, error.violations());
     }
   }
   if (!problems.empty()) throw ConfigError(problems);

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "fem_reference/verification/verification_file.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/cases/measures.h"
 #include "studies/files/read_fields.h"
-#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies::inline cases {
 
@@ -177,7 +177,7 @@ void write_summary(const CaseSummary& summary, const RunResults& results, const 
   if (!summary.presses.empty()) add_measures(members(results, "press"), content["presses"]);
   if (!summary.grasps.empty()) add_measures(members(results, "grasp"), content["grasps"]);
   if (!summary.materials.empty()) add_measures(members(results, "material"), content["materials"]);
-  write_json(content, file);
+  meshes::write_json_file(content, file);
 }
 
 }  // namespace fingertip::studies::inline cases

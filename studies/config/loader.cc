@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <iterator>
 
 #include <toml++/toml.h>
 
@@ -112,7 +111,7 @@ void Reader::read_file(const std::filesystem::path& file) {
         read_section(std::string(section.str()), node, file);
     }
   } catch (const meshes::InvalidInput& error) {
-    std::ranges::copy(error.violations(), std::back_inserter(problems_));
+    append(problems_, error.violations());
   }
 }
 
@@ -211,8 +210,7 @@ void Reader::resolve_card() {
     for (const std::string& warning : card_warnings(card, loaded_))
       loaded_.notes.push_back(config.card.filename().string() + ": " + warning);
   } catch (const meshes::InvalidInput& error) {
-    const ConfigError refused = refused_file(loaded_, "rubber.card", error);
-    std::ranges::copy(refused.violations(), std::back_inserter(problems_));
+    append(problems_, refused_file(loaded_, "rubber.card", error).violations());
   }
 }
 
@@ -252,9 +250,10 @@ LoadedConfig Reader::finish() {
 
   std::vector<meshes::Violation> broken = press.rubber.violations();
   // Without its file the finger is still the dome: rules about it mean nothing.
-  if (config.shape == ShapeKind::dome || !press.geometry.is_dome())
-    for (const auto& more : {press.geometry.violations(), protocol.violations(press.geometry)})
-      broken.insert(broken.end(), more.begin(), more.end());
+  if (config.shape == ShapeKind::dome || !press.geometry.is_dome()) {
+    append(broken, press.geometry.violations());
+    append(broken, protocol.violations(press.geometry));
+  }
   const ConfigError located = loaded_.locate(broken);
   for (const meshes::Violation& problem : located.violations()) {
     // A value that could not be read still holds its default: rules about it mean nothing.

@@ -4,13 +4,13 @@
 #include <ostream>
 
 #include "meshes/base/files.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/exchange/drake_files.h"
 #include "studies/exchange/mujoco_files.h"
 #include "studies/exchange/pressure_law_files.h"
 #include "studies/exchange/sofa_files.h"
 #include "studies/exchange/texts/texts.h"
 #include "studies/files/read_fields.h"
-#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies::inline exchange {
 
@@ -111,7 +111,7 @@ void write_contact_export(const ContactExport& made, const std::filesystem::path
     write_contact_export(part, folder / name);
   }
   for (const ContactExport::File& file : made.files) write(file.name, file.text);
-  write_json(json_of(made.transfer), folder / "transfer.json");
+  meshes::write_json_file(made.transfer, folder / "transfer.json");
   std::string readme = made.readme + transfer_chapters(made.transfer);
   if (!made.transfer.obstacles.empty())
     readme += "\nNumbers: `transfer.json`. Runs they come from: `continuum/`.\n";

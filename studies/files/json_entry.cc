@@ -72,6 +72,10 @@ nlohmann::ordered_json parse_json(const fs::path& file) {
   return parse<nlohmann::ordered_json>(file);
 }
 
+double number_of(const nlohmann::ordered_json& value) {
+  return value.is_number() ? value.get<double>() : meshes::unknown;
+}
+
 JsonEntry read_entry(const fs::path& file) {
   return {parse<json>(file), file};
 }

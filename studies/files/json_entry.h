@@ -15,6 +15,9 @@ namespace fingertip::studies::inline files {
 /// read, is no JSON, or holds something else than an object.
 nlohmann::ordered_json parse_json(const std::filesystem::path& file);
 
+/// The number, NaN for null.
+double number_of(const nlohmann::ordered_json& value);
+
 /// A value in a JSON file that knows its place there. Entries that are absent count as null, and
 /// null stands for what a program did not know. A value of another type than is asked for is
 /// damage: InvalidInput with file, path ("samples[2].force"), value and the type that belongs

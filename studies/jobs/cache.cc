@@ -2,10 +2,10 @@
 
 #include <unistd.h>
 
+#include "meshes/tables/fields_json.h"
 #include "studies/files/json_entry.h"
 #include "studies/jobs/digest.h"
 #include "studies/jobs/file_lock.h"
-#include "studies/jobs/json_file.h"
 #include "studies/jobs/result_files.h"
 
 namespace fingertip::studies::inline jobs {
@@ -42,11 +42,11 @@ bool attempted(const Job& job, const fs::path& folder) {
 }
 
 void mark_attempt(const Job& job, const fs::path& folder) {
-  write_json({{"kind", job.kind},
-              {"key", job.key()},
-              {"source_hash", job.source_hash},
-              {"inputs", job.inputs}},
-             folder / attempt_name);
+  meshes::write_json_file({{"kind", job.kind},
+                           {"key", job.key()},
+                           {"source_hash", job.source_hash},
+                           {"inputs", job.inputs}},
+                          folder / attempt_name);
 }
 
 void mark(const Job& job, const fs::path& folder, const std::string& status, double wall_time) {

@@ -18,7 +18,6 @@
 #include "meshes/tables/file_fields.h"
 #include "studies/files/json_entry.h"
 #include "studies/jobs/fem_launch.h"
-#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies::inline jobs {
 

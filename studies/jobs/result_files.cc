@@ -4,9 +4,9 @@
 
 #include "meshes/base/errors.h"
 #include "meshes/base/text_file.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/files/json_entry.h"
 #include "studies/jobs/digest.h"
-#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies::inline jobs {
 
@@ -76,12 +76,12 @@ nlohmann::ordered_json read_marker(const fs::path& folder) {
 void write_marker(nlohmann::ordered_json marker, const fs::path& folder) {
   marker.erase(seal);
   marker[seal] = sha256(marker.dump());
-  write_json(marker, folder / marker_name);
+  meshes::write_json_file(marker, folder / marker_name);
 }
 
 void rewrite_result(const fs::path& folder, const std::string& name,
                     const nlohmann::ordered_json& content) {
-  write_json(content, folder / name);
+  meshes::write_json_file(content, folder / name);
   auto marker = read_marker(folder);
   marker[files_entry][name] = sha256(meshes::read_text(folder / name));
   write_marker(std::move(marker), folder);

@@ -11,7 +11,6 @@
 #include "meshes/tables/table_rows.h"
 #include "source_hash.h"
 #include "studies/files/run_tables.h"
-#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies::inline presses {
 
@@ -32,13 +31,13 @@ void run_modes_job(const lattice::PressSetup& setup, int count, const fs::path& 
                     motion.effective_mass, motion.effective_inertia, motion.waves});
   }
   meshes::write_rows(rows, folder / "modes.csv");
-  write_json({{"model", lattice::name(setup.lattice.model)},
-              {"status", "finished"},
-              {"spacing", setup.lattice.spacing},
-              {"constants", meshes::json_of(setup.lattice.constants)},
-              {"particles", body.rest.size()},
-              {"cells", body.cells.size()}},
-             folder / "summary.json");
+  meshes::write_json_file({{"model", lattice::name(setup.lattice.model)},
+                           {"status", "finished"},
+                           {"spacing", setup.lattice.spacing},
+                           {"constants", meshes::json_of(setup.lattice.constants)},
+                           {"particles", body.rest.size()},
+                           {"cells", body.cells.size()}},
+                          folder / "summary.json");
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
 #include "studies/files/json_entry.h"
-#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies::inline presses {
 
@@ -101,7 +100,7 @@ void set_press_status(const fs::path& folder, const std::string& status) {
   if (!fs::exists(folder / "summary.json")) return;
   ordered_json summary = parse_json(folder / "summary.json");
   summary["status"] = status;
-  write_json(summary, folder / "summary.json");
+  meshes::write_json_file(summary, folder / "summary.json");
 }
 
 }  // namespace fingertip::studies::inline presses

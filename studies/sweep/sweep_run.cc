@@ -5,11 +5,11 @@
 
 #include "lattice/control/controller.h"
 #include "meshes/base/errors.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/files/json_entry.h"
 #include "studies/files/places.h"
 #include "studies/jobs/cache.h"
 #include "studies/jobs/file_lock.h"
-#include "studies/jobs/json_file.h"
 #include "studies/jobs/progress.h"
 #include "studies/jobs/run_folder.h"
 #include "studies/jobs/session.h"
@@ -116,7 +116,7 @@ void claim_folder(const Sweep& sweep, const fs::path& folder) {
   }
   fs::create_directories(folder / "points");
   fs::create_directories(folder / "locks");
-  write_json(content, folder / sweep_file);
+  meshes::write_json_file(content, folder / sweep_file);
 }
 
 std::vector<PointResult> run_points(const Sweep& sweep, const std::vector<PlannedPoint>& points,

@@ -2,11 +2,11 @@
 
 #include <vector>
 
+#include "meshes/tables/fields_json.h"
 #include "studies/bench/bench.h"
 #include "studies/bench/history.h"
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/cli/verbs/verbs.h"
-#include "studies/jobs/json_file.h"
 #include "studies/report/report.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
@@ -29,10 +29,10 @@ int run_bench(const CommandLine& line) {
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const nlohmann::ordered_json bench = run_bench(session, loaded, plan);
     const std::filesystem::path& folder = session.folder().path();
-    write_json(bench, folder / "bench.json");
+    meshes::write_json_file(bench, folder / "bench.json");
     append_history(bench, history);
     report::write_report(folder);
-    if (!line.json.empty()) write_json(bench, line.json);
+    if (!line.json.empty()) meshes::write_json_file(bench, line.json);
     if (line.quiet) return 0;
     fmt::print("{}", bench_text(bench));
     fmt::print("history: {}\nreport: {}\n", history.string(), (folder / "report.html").string());

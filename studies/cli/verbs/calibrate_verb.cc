@@ -6,7 +6,6 @@
 #include "studies/files/json_entry.h"
 #include "studies/files/shown_units.h"
 #include "studies/fits/runs/calibration_stages.h"
-#include "studies/jobs/json_file.h"
 #include "studies/report/report.h"
 
 namespace fingertip::studies::inline cli::inline verbs {

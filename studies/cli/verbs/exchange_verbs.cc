@@ -2,12 +2,12 @@
 
 #include <optional>
 
+#include "meshes/tables/fields_json.h"
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/cli/verbs/verbs.h"
 #include "studies/exchange/contact_export.h"
 #include "studies/exchange/fmu_files.h"
 #include "studies/exchange/lammps/lammps_files.h"
-#include "studies/jobs/json_file.h"
 #include "studies/presses/press_setup.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
@@ -105,7 +105,7 @@ int export_lammps(const CommandLine& line) {
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const fs::path& folder = session.folder().path();
     const LammpsCensus census = write_lammps(body, {settings.steps, settings.every}, folder);
-    write_json(summary_of(body, census), folder / "summary.json");
+    meshes::write_json_file(summary_of(body, census), folder / "summary.json");
     session.folder().log("dampers are left out: LAMMPS has none along bonds");
     foretell(session, "lammps",
              fmt::format("# A finger for LAMMPS\n\n`lattice.data`, `lattice.in`: {} masses, {} "

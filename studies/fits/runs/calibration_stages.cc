@@ -7,6 +7,7 @@
 
 #include "calibration/moduli/result_io.h"
 #include "meshes/press/press_response.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/files/json_entry.h"
 #include "studies/files/read_fields.h"
 #include "studies/fits/models/fit_relaxation.h"
@@ -17,7 +18,6 @@
 #include "studies/fits/setup/configured_fit.h"
 #include "studies/fits/setup/fit_setup.h"
 #include "studies/jobs/cache.h"
-#include "studies/jobs/json_file.h"
 #include "studies/presses/press_setup.h"
 #include "studies/presses/reference_job.h"
 
@@ -292,7 +292,7 @@ void CalibrationStages::finish(const fs::path& run) const {
     fit.statement += contact_note_;
     ordered_json summary = parse_json(run / place(fit_name_) / "summary.json");
     summary["statement"] = fit.statement;
-    write_json(summary, target / "summary.json");
+    meshes::write_json_file(summary, target / "summary.json");
     meshes::write_json_file(fit, target / "calibration.json");
   }
   if (use && loaded_.config.calibration.surrogate)

@@ -26,7 +26,6 @@
 #include "studies/fits/models/fit_rig.h"
 #include "studies/fits/models/measurement_gains.h"
 #include "studies/fits/models/omitted_effects.h"
-#include "studies/jobs/json_file.h"
 #include "studies/presses/press_record.h"
 
 namespace fingertip::studies::inline fits::inline runs {
@@ -133,14 +132,14 @@ void write(const calibration::FitRecord& record, const fs::path& folder) {
   material.rejected = calibration::in_one(failed);
   if (material.violations().empty())
     calibration::write_material_toml(material, folder / estimates_name);
-  write_json({{"problem", record.problem},
-              {"model", lattice::name(record.material.model)},
-              {"status", "finished"},
-              {"failed", failed},
-              {"evaluations", record.fit.evaluations},
-              {"wall_time", record.wall_time},
-              {"statement", material.statement}},
-             folder / "summary.json");
+  meshes::write_json_file({{"problem", record.problem},
+                           {"model", lattice::name(record.material.model)},
+                           {"status", "finished"},
+                           {"failed", failed},
+                           {"evaluations", record.fit.evaluations},
+                           {"wall_time", record.wall_time},
+                           {"statement", material.statement}},
+                          folder / "summary.json");
 }
 
 std::string model_error_words(const FitInput& input) {

@@ -12,7 +12,6 @@
 #include "meshes/tables/table_rows.h"
 #include "source_hash.h"
 #include "studies/fits/runs/plate_factor.h"
-#include "studies/jobs/json_file.h"
 #include "studies/jobs/provenance.h"
 
 namespace fingertip::studies::inline fits::inline runs {
@@ -135,15 +134,15 @@ void run_laws(LawInput input, const fs::path& folder, const JobContext& context)
   meshes::write_json_file(file, folder / "laws.json");
   meshes::write_rows(law_data(ranking, fitted, validation), folder / "law_data.csv");
   write_cards(ranking, input, folder);
-  write_json({{"problem", "material"},
-              {"status", "finished"},
-              {"failed", file.failed},
-              {"recommended", file.recommended},
-              {"laws", input.laws.size()},
-              {"tests", fitted.size()},
-              {"predicted", validation.size()},
-              {"statement", file.statement}},
-             folder / "summary.json");
+  meshes::write_json_file({{"problem", "material"},
+                           {"status", "finished"},
+                           {"failed", file.failed},
+                           {"recommended", file.recommended},
+                           {"laws", input.laws.size()},
+                           {"tests", fitted.size()},
+                           {"predicted", validation.size()},
+                           {"statement", file.statement}},
+                          folder / "summary.json");
   context.log(file.statement);
 }
 

@@ -15,7 +15,6 @@
 #include "studies/fits/models/fit_rig.h"
 #include "studies/fits/models/measurement_gains.h"
 #include "studies/fits/runs/fit_job.h"
-#include "studies/jobs/json_file.h"
 
 namespace fingertip::studies::inline fits::inline runs {
 
@@ -136,11 +135,11 @@ void run_plan(FitInput input, const PlannedNoise& noise, const fs::path& folder,
   plan.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   meshes::write_json_file(plan, folder / plan_name);
   write_rows_of(input, folder / "planned_presses.csv");
-  write_json({{"problem", plan.problem},
-              {"status", "finished"},
-              {"wall_time", plan.wall_time},
-              {"statement", plan.statement}},
-             folder / "summary.json");
+  meshes::write_json_file({{"problem", plan.problem},
+                           {"status", "finished"},
+                           {"wall_time", plan.wall_time},
+                           {"statement", plan.statement}},
+                          folder / "summary.json");
   context.log(plan.statement);
 }
 

@@ -8,7 +8,6 @@
 #include "meshes/tables/fields_json.h"
 #include "source_hash.h"
 #include "studies/fits/models/travel.h"
-#include "studies/jobs/json_file.h"
 #include "studies/presses/press_record.h"
 
 namespace fingertip::studies::inline fits::inline runs {
@@ -58,8 +57,8 @@ void run_surrogate(const lattice::PressSetup& setup, const ForceUncertainty& unc
                                  std::string(meshes::name(setup.protocol.contact)));
   calibration::write_surrogate_csv(surrogate, folder / "surrogate.csv");
   calibration::write_surrogate_json(surrogate, folder / "surrogate.json");
-  write_json({{"status", "finished"}, {"statement", surrogate.table().statement}},
-             folder / "summary.json");
+  meshes::write_json_file({{"status", "finished"}, {"statement", surrogate.table().statement}},
+                          folder / "summary.json");
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // The whole of `bench` with its smallest plan: everything but the numbers is real.
 #include "studies/bench/bench.h"
+#include "meshes/tables/fields_json.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "studies/files/places.h"
-#include "studies/jobs/json_file.h"
 #include "studies/jobs/provenance.h"
 #include "studies/report/report.h"
 #include "tests/temporary_folder.h"
@@ -27,7 +27,7 @@ ordered_json bench_in(const TemporaryFolder& folder, const BenchPlan& plan) {
   studies::Progress progress(studies::ProgressStyle::off);
   studies::Session session(run, progress, studies::Cache(folder / "cache"), 1);
   const ordered_json bench = studies::run_bench(session, loaded, plan);
-  studies::write_json(bench, folder / "run/bench.json");
+  meshes::write_json_file(bench, folder / "run/bench.json");
   run.finish("finished", 0);
   return bench;
 }

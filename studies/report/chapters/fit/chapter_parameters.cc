@@ -132,7 +132,7 @@ bool same_place(const std::vector<double>& a, const std::vector<double>& b) {
   return true;
 }
 
-const MinimumEntry& min_minimum(const Fit& fit) {
+const MinimumEntry& lowest_minimum(const Fit& fit) {
   return *std::ranges::min_element(fit.file.minima, {}, [](const MinimumEntry& minimum) {
     return std::isfinite(minimum.loss) ? minimum.loss : std::numeric_limits<double>::infinity();
   });
@@ -142,7 +142,7 @@ const MinimumEntry& min_minimum(const Fit& fit) {
 bool is_same_minimum(const Fit& fit) {
   const std::vector<MinimumEntry>& minima = fit.file.minima;
   return minima.size() > 1 && std::ranges::all_of(minima, [&](const MinimumEntry& minimum) {
-           return same_place(minimum.estimates, min_minimum(fit).estimates);
+           return same_place(minimum.estimates, lowest_minimum(fit).estimates);
          });
 }
 
@@ -155,8 +155,8 @@ Table minima_table(const Fit& fit) {
   table.header.insert(table.header.end(), {"Loss", "Iterations"});
   for (const MinimumEntry& minimum : fit.file.minima) {
     const std::vector<double>& estimates = minimum.estimates;
-    std::vector<Cell> row{
-        {std::to_string(table.rows.size() + 1), &minimum == &min_minimum(fit) ? "reported" : ""}};
+    std::vector<Cell> row{{std::to_string(table.rows.size() + 1),
+                           &minimum == &lowest_minimum(fit) ? "reported" : ""}};
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
       row.emplace_back(i < estimates.size() ? number(fit.parameters[i].factor * estimates[i])
                                             : "–");
