@@ -78,10 +78,11 @@ def table_differences(before, after, relative):
         if is_left_out(head):
             continue
         values = [abs(v) for row in a if (v := number(row[column])) is not None and math.isfinite(v)]
+        scale = max(values, default=0.0)
         for line, (x, y) in enumerate(zip(a, b), 2):
             x, y = x[column], y[column]
             u, v = number(x), number(y)
-            alike = x == y if u is None or v is None else same(u, v, max(values, default=0.0), relative)
+            alike = x == y if u is None or v is None else same(u, v, scale, relative)
             if not alike:
                 yield f"{before.name}:{line}, {head}: {x}, {y} after"
                 break
