@@ -29,12 +29,8 @@ const ut_system& units() {
     std::unique_ptr<ut_system, decltype(&ut_free_system)> read(ut_read_xml(nullptr),
                                                                &ut_free_system);
     if (!read) throw std::runtime_error("cannot read the UDUNITS-2 unit data base");
-    const auto add = [&](const char* symbol, const char* meaning) {
-      const Unit unit(ut_parse(read.get(), meaning, UT_ASCII));
-      ut_map_symbol_to_unit(symbol, UT_ASCII, unit.get());
-    };
-    add("gf", "9.80665e-3 N");
-    add("deg", "degree");
+    const Unit degree(ut_parse(read.get(), "degree", UT_ASCII));
+    ut_map_symbol_to_unit("deg", UT_ASCII, degree.get());
     return read;
   }();
   return *system;

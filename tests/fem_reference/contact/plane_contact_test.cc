@@ -187,6 +187,19 @@ TEST(PlaneContact, AnchorsMoveWithThePlane) {
   EXPECT_NEAR(contact.reaction(0).z(), -0.1 / 4.0, 1e-14);
 }
 
+/// At small strain a ball of radius 2 lowers the gap by 2 - sqrt(4 - r²), r from where it is.
+TEST(PlaneContact, AnObstacleMovesWithThePlane) {
+  const meshes::Obstacle ball{.shape = meshes::ObstacleShape::sphere, .radius = 2.0};
+  const PlaneContact contact(nodes_at({1.0}, true), ContactMode::frictionless, start, 0.0, 1.0,
+                             ball);
+  for (const double shift : {-0.4, 0.0, 0.7}) {
+    const double r = std::hypot(0.5 - shift, 0.3);
+    EXPECT_NEAR(contact.gap({0.5, 0.3, 0.8}, meshes::Vector3::Zero(), {1.0, shift}),
+                0.2 + 2.0 - std::sqrt(4.0 - r * r), 1e-14)
+        << shift;
+  }
+}
+
 /// A push, never a pull: drawn back, the plane lets go and the body is at rest again.
 TEST(PlaneContact, LetsGoWhenPulled) {
   for (const ContactMode mode :

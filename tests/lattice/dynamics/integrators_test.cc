@@ -295,13 +295,15 @@ TEST(EnergyControlledStep, KeepsItsBoundAndShrinksAtImpact) {
 
 /// Dissipation and the work of rod and plane are accounted for: along accurate motion the balance
 /// closes, though neither kinetic nor elastic energy is conserved.
-TEST(EnergyBalance, ClosesAlongADampedPressAgainstAMovingPlane) {
+TEST(EnergyBalance, ClosesAlongADampedPressAgainstAMovingAndTurningPlane) {
   FingerSetup setup = setup_with(Integrator::runge_kutta, 3e-4);
   setup.prescribed = true;
   setup.tolerance = 1e-7;
   setup.time_step = 1e-5;  // for the trapezoidal rule of the works
   setup.gravity = {0.3, 0.0, -9.81};
   setup.plane.velocity = {0.0, 0.0, -0.01};
+  setup.plane.point.x() = 5e-3;
+  setup.plane.angular_velocity = {0.0, -3.0, 0.0};
   VirtualFinger finger(setup);
   const lattice::Motion motion = [](double t) {
     return lattice::RodMotion{{0.0, 0.0, 1.0 * t * t}, {0.0, 0.0, 2.0 * t}};

@@ -175,6 +175,16 @@ TEST(PressResponse, InterpolationConvergesToASmoothForceLaw) {
   EXPECT_GT(std::log2(error(10) / error(20)), 1.8);  // at least second order where monotone
 }
 
+/// Intervals of 1 and 3 with secants 1 and 3: the slope between them is the harmonic mean with the
+/// weights 7 and 5 of Fritsch & Butland, 18/13; the parabola at the end has 4.5 - 9/13.
+TEST(PressResponse, UnevenSamplesWeighTheirSecants) {
+  PressResponse response;
+  response.append({.indentation = 1.0, .normal_force = 1.0});
+  response.append({.indentation = 4.0, .normal_force = 10.0});
+  const double inner = 18.0 / 13.0, end = 4.5 - 9.0 / 13.0;
+  EXPECT_NEAR(response.normal_force_at(2.5), 5.5 + 3.0 / 8.0 * (inner - end), 1e-14);
+}
+
 TEST(PressResponse, InterpolationNeverOvershootsAStep) {
   PressResponse response;
   for (const auto& [at, force] : {std::pair{1.0, 0.0}, {2.0, 0.01}, {3.0, 5.0}, {4.0, 5.01}}) {
