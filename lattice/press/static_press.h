@@ -28,7 +28,7 @@ struct StaticOutcome : PressShapes {  // empty unless it was to be pictured
   std::size_t particles = 0, cells = 0, springs = 0, unknowns = 0;
   int sectors = 1;
   double volume = 0.0, exact_volume = 0.0;  ///< of the rubber, whole tip [m³]
-  int steps = 0, newton_iterations = 0, factorisations = 0;
+  int steps = 0, newton_iterations = 0, factorisations = 0, gradients = 0;
   double smallest_jacobian = 1.0;           ///< over all cells and steps
   double wall_time = 0.0;                   ///< [s]
   std::vector<StaticContactPoint> contact;  ///< at the last sample finished

@@ -53,6 +53,13 @@ Eigen::Matrix<double, 4, 8> mode_weights(double spacing) {
   return weights / (4.0 * spacing);
 }
 
+GridPlace place_of(const CubicGrid& grid, std::size_t point) {
+  const std::array<int, 3> origin = grid.nearest(Vector3::Zero());
+  const std::size_t row = std::size_t(grid.size[0]), plane = row * std::size_t(grid.size[1]);
+  return {int(point % row) - origin[0], int(point % plane / row) - origin[1],
+          int(point / plane) - origin[2]};
+}
+
 /// Particles, springs and cells; no bond, no outer points, nothing held.
 LatticeBody elastic_body(const GridCells& cells, const Formulation& formulation, double density) {
   LatticeBody body;
@@ -60,7 +67,10 @@ LatticeBody elastic_body(const GridCells& cells, const Formulation& formulation,
   if (formulation.cell_law) body.law = {formulation.material, cells.grid().axes};
   body.mass.assign(cells.particles(), 0.0);
   body.fixed.assign(3 * cells.particles(), 0);
-  for (std::size_t p = 0; p < cells.particles(); ++p) body.rest.push_back(cells.rest_position(p));
+  for (std::size_t p = 0; p < cells.particles(); ++p) {
+    body.rest.push_back(cells.rest_position(p));
+    body.places.push_back(place_of(cells.grid(), cells.point(p)));
+  }
   const double spacing = cells.grid().spacing, cube = spacing * spacing * spacing;
   for (const CutCell& cell : cells.cells()) {
     const CornerMoments moments = corner_moments(cell);
@@ -92,6 +102,7 @@ LatticeBody springs_of(const LatticeModel& model, std::vector<std::uint32_t>& nu
   for (const std::uint32_t point : model.particles) {
     number[point] = std::uint32_t(body.rest.size());
     body.rest.push_back(model.rest_position(point));
+    body.places.push_back(place_of(model.grid, point));
     body.mass.push_back(model.mass[point]);
   }
   body.fixed.assign(3 * body.rest.size(), 0);

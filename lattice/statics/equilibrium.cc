@@ -1,11 +1,10 @@
 #include "lattice/statics/equilibrium.h"
 
-#include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "lattice/statics/factor_memory.h"
+#include "lattice/statics/block_multigrid.h"
 
 namespace fingertip::lattice::inline statics {
 
@@ -15,18 +14,18 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int max_iterations = 100;
-/// Gradients that cost as much as a factorisation, from 1000 to 24 000 unknowns (MEASUREMENTS).
-constexpr int factor_cost = 50;
-constexpr int max_response_gradients = 30;
+/// Gradients that cost as much as a new preconditioner (MEASUREMENTS).
+constexpr int preparation_cost = 8;
+/// With a preconditioner of the present tangent; of others until a new one costs less.
+constexpr int max_gradients = 400;
 constexpr int max_halvings = 20;
 constexpr int max_shifts = 6;
 constexpr double first_shift = 1e-3;  // of the mean stiffness
-/// Accuracy of a Newton step; the next one corrects what it leaves.
-constexpr double step_accuracy = 1e-3;
+/// Accuracy of a Newton step: what it leaves need not be less than what the next one will find
+/// (Eisenstat & Walker, SIAM J. Sci. Comput. 17 (1996) 16, their second choice).
+constexpr double worst_accuracy = 0.1, best_accuracy = 1e-3;
 /// Of the residual of a response, over its force.
 constexpr double response_accuracy = 1e-12;
-/// More than a fresh factor takes.
-constexpr int fewest_gradients = 5;
 /// Of displacements, over the body's size.
 constexpr double round_off = 1e-15;
 /// Share of the decrease promised by the slope that a step must bring (Armijo).
@@ -42,32 +41,33 @@ struct EquilibriumSolver::Implementation {
     return system.energy(displacement) + contact.energy(displacement);
   }
   void hold_fixed();
-  double round_off_force() const;
+  /// What no iteration removes [N].
+  double round_off_force() const { return round_off * largest_stiffness * extent; }
   double round_off_energy(double energy) const;
   bool find_step(VectorXd& step);
-  bool factorise();
+  bool prepare(double shift);
   bool iterate(VectorXd& step);
-  bool factor_is_stale() const { return last_gradients * steps > factor_cost + gradients; }
-  bool search(const StaticContact& contact, const VectorXd& step, VectorXd& displacement);
-  bool iterate(const MatrixXd& forces, MatrixXd& responses) const;
+  bool is_stale() const { return last_gradients * steps > preparation_cost + gradients; }
+  bool search(const StaticContact& contact, const VectorXd& step, VectorXd& displacement,
+              double& stored);
+  bool iterate(const MatrixXd& forces, MatrixXd& responses);
 
   const ElasticSystem& system;
   Tangent tangent;
   VectorXd force;
   std::vector<Eigen::Index> fixed_entries, fixed_diagonal;  ///< of the tangent's values
-  Eigen::CholmodSupernodalLLT<Tangent, Eigen::Lower> factor;
-  bool factorised = false;
-  /// Since the factor was made: Newton steps by it, their gradients, those of the last.
+  BlockMultigrid preconditioner;
+  bool prepared = false;
+  /// Since the preconditioner was made: Newton steps by it, their gradients, those of the last.
   int steps = 0, gradients = 0, last_gradients = 0;
-  double extent = 0.0;  ///< largest coordinate of a particle [m]
+  double accuracy = worst_accuracy;  ///< of the next step
+  double extent = 0.0;               ///< largest coordinate of a particle [m]
+  double largest_stiffness = 0.0;    ///< on the tangent's diagonal [N/m]
   Effort effort;
 };
 
 EquilibriumSolver::Implementation::Implementation(const ElasticSystem& elastic_system)
-    : system(elastic_system), tangent(system.empty_tangent()) {
-  factor.cholmod().print = 0;
-  factor.analyzePattern(tangent);
-  require_memory(factor.cholmod(), tangent.rows());
+    : system(elastic_system), tangent(system.empty_tangent()), preconditioner(system) {
   for (const auto& rest : system.body().rest) extent = std::max(extent, rest.cwiseAbs().maxCoeff());
   const auto& fixed = system.body().fixed;
   if (fixed.empty()) return;
@@ -90,7 +90,9 @@ double EquilibriumSolver::Implementation::evaluate(const StaticContact& contact,
   const auto& fixed = system.body().fixed;
   for (std::size_t i = 0; i < fixed.size(); ++i)
     if (fixed[i]) force[Eigen::Index(i)] = 0.0;
-  if (matrix) hold_fixed();
+  if (!matrix) return sum;
+  hold_fixed();
+  largest_stiffness = tangent.diagonal().maxCoeff();
   return sum;
 }
 
@@ -99,46 +101,31 @@ void EquilibriumSolver::Implementation::hold_fixed() {
   for (const Eigen::Index e : fixed_diagonal) tangent.valuePtr()[e] = 1.0;
 }
 
-/// What no iteration removes [N].
-double EquilibriumSolver::Implementation::round_off_force() const {
-  return round_off * tangent.diagonal().maxCoeff() * extent;
-}
-
 /// How far energies of the same state may be apart [J]: an energy is a sum of small differences of
 /// what the cells store, which at first touch is far more than it.
 double EquilibriumSolver::Implementation::round_off_energy(double energy) const {
   return std::max(1e-10 * std::abs(energy), round_off_force() * extent);
 }
 
-/// Where the tangent is not positive definite (springs snapping through), a multiple of the
-/// identity is added, the smaller the better: the step then still goes downhill.
-bool EquilibriumSolver::Implementation::factorise() {
-  const double typical = tangent.diagonal().mean();
-  double shift = 0.0;
-  for (int i = 0; i < max_shifts; ++i) {
-    factor.setShift(shift);
-    factor.factorize(tangent);
-    require_memory(factor.cholmod(), tangent.rows());
-    ++effort.factorisations;
-    steps = gradients = last_gradients = 0;
-    factorised = factor.info() == Eigen::Success;
-    if (factorised) return true;
-    shift = shift > 0.0 ? 10.0 * shift : first_shift * typical;
-  }
-  return false;
+bool EquilibriumSolver::Implementation::prepare(double shift) {
+  ++effort.factorisations;
+  steps = gradients = last_gradients = 0;
+  return prepared = preconditioner.set(tangent, shift);
 }
 
 /// Conjugate gradients for tangent x step = force from step = 0, up to where the energy is found to
-/// curve downward: what they have by then goes downhill (Steihaug 1983). False when they take too
-/// long.
+/// curve downward: what they have by then goes downhill (Steihaug 1983). False when the
+/// preconditioner is not positive definite or so old that they take too long.
 bool EquilibriumSolver::Implementation::iterate(VectorXd& step) {
-  const double enough = step_accuracy * force.norm();
-  VectorXd residual = force, z = factor.solve(residual), direction = z, product(step.size());
+  const double enough = accuracy * force.norm();
+  VectorXd residual = force, z = preconditioner.solve(residual), direction = z,
+           product(step.size());
   step.setZero();
   double slope = residual.dot(z);
-  ++steps;
-  for (last_gradients = 1; last_gradients <= factor_cost; ++last_gradients) {
+  const int most = steps++ == 0 ? max_gradients : preparation_cost + gradients / steps;
+  for (last_gradients = 1; last_gradients <= most; ++last_gradients) {
     ++gradients;
+    ++effort.gradients;
     product.noalias() = tangent.selfadjointView<Eigen::Lower>() * direction;
     const double curvature = direction.dot(product);
     if (!(slope > 0.0)) return false;
@@ -149,36 +136,42 @@ bool EquilibriumSolver::Implementation::iterate(VectorXd& step) {
     step += slope / curvature * direction;
     residual -= slope / curvature * product;
     if (residual.norm() <= enough) return true;
-    z = factor.solve(residual);
+    z = preconditioner.solve(residual);
     const double next = residual.dot(z);
     direction = z + next / slope * direction;
     slope = next;
   }
-  return false;
+  return steps == 1;  // what they have goes downhill
 }
 
-/// An old factor serves as long as a step by it costs less than the steps since it was made have
-/// cost on average, itself included: the average is then least.
+/// An old preconditioner serves as long as a step by it costs less than the steps since it was made
+/// have cost on average, itself included: the average is then least. Where the present tangent is
+/// not positive definite (springs snapping through), the new one is that of a multiple of the
+/// identity more, the smaller the better.
 bool EquilibriumSolver::Implementation::find_step(VectorXd& step) {
   step.resize(force.size());
-  if (factorised && !factor_is_stale() && iterate(step)) return true;
-  if (!factorise()) return false;
-  step = factor.solve(force);
-  return true;
+  if (prepared && !is_stale() && iterate(step)) return true;
+  const double typical = tangent.diagonal().mean();
+  double shift = 0.0;
+  for (int i = 0; i < max_shifts; ++i) {
+    if (prepare(shift) && iterate(step)) return true;
+    shift = shift > 0.0 ? 10.0 * shift : first_shift * typical;
+  }
+  return prepared = false;
 }
 
-/// Goes along the step, halving it until the energy falls enough; near the minimum, where the
-/// energy is all round-off, until the force does.
+/// Goes along the step, halving it until the energy `stored` falls enough; near the minimum, where
+/// the energy is all round-off, until the force does.
 bool EquilibriumSolver::Implementation::search(const StaticContact& contact, const VectorXd& step,
-                                               VectorXd& displacement) {
-  const double start = energy(contact, displacement), slope = force.dot(step);
+                                               VectorXd& displacement, double& stored) {
+  const double start = stored, slope = force.dot(step);
   const double before = force.norm();
   if (!(slope > 0.0) || !std::isfinite(start)) return false;
   const VectorXd origin = displacement;
   double length = 1.0;
   for (int i = 0; i < max_halvings; ++i, length *= 0.5) {
     displacement = origin + length * step;
-    const double now = energy(contact, displacement);
+    const double now = stored = energy(contact, displacement);
     if (!std::isfinite(now)) continue;
     if (now <= start - sufficient_decrease * length * slope) return true;
     if (std::abs(now - start) > round_off_energy(start)) continue;
@@ -189,25 +182,24 @@ bool EquilibriumSolver::Implementation::search(const StaticContact& contact, con
 }
 
 /// Conjugate gradients for all columns side by side, each with coefficients of its own, until its
-/// residual is small. False when one meets negative curvature or they cost more than a
-/// factorisation.
-bool EquilibriumSolver::Implementation::iterate(const MatrixXd& forces, MatrixXd& responses) const {
+/// residual is small. False when one meets negative curvature or they take too long.
+bool EquilibriumSolver::Implementation::iterate(const MatrixXd& forces, MatrixXd& responses) {
   const auto product = [this](const MatrixXd& x) -> MatrixXd {
     return tangent.selfadjointView<Eigen::Lower>() * x;
   };
   MatrixXd residual = forces - product(responses);
   MatrixXd direction = MatrixXd::Zero(forces.rows(), forces.cols());
   VectorXd slope = VectorXd::Ones(forces.cols());
-  const int most = std::max(fewest_gradients, max_response_gradients / int(forces.cols()));
-  for (int i = 0; i < most; ++i) {
+  for (int i = 0; i < max_gradients; ++i) {
     std::vector<Eigen::Index> active;
     for (Eigen::Index j = 0; j < forces.cols(); ++j)
       if (residual.col(j).norm() > response_accuracy * forces.col(j).norm()) active.push_back(j);
     if (active.empty()) return true;
-    const MatrixXd z = factor.solve(residual);
     for (const Eigen::Index j : active) {
-      const double next = residual.col(j).dot(z.col(j));
-      direction.col(j) = z.col(j) + next / slope[j] * direction.col(j);
+      const VectorXd z = preconditioner.solve(residual.col(j));
+      const double next = residual.col(j).dot(z);
+      if (!(next > 0.0)) return false;
+      direction.col(j) = z + next / slope[j] * direction.col(j);
       slope[j] = next;
     }
     const MatrixXd pull = product(direction);
@@ -237,14 +229,14 @@ bool EquilibriumSolver::respond(const StaticContact& contact, const VectorXd& di
     if (forces.col(j).isZero(0.0)) responses.col(j).setZero();
   Implementation& own = *implementation_;
   own.evaluate(contact, displacement, &own.tangent);
-  if (own.factorised && own.iterate(forces, responses)) return true;
-  return own.factorise() && own.iterate(forces, responses);
+  return own.prepare(0.0) && own.iterate(forces, responses);
 }
 
 bool EquilibriumSolver::solve(const StaticContact& contact, VectorXd& displacement,
                               double tolerance) {
   Implementation& own = *implementation_;
   VectorXd step;
+  double before = 0.0, stored = own.energy(contact, displacement);
   for (int i = 0; i < max_iterations; ++i) {
     double contact_force = 0.0;
     try {
@@ -252,9 +244,14 @@ bool EquilibriumSolver::solve(const StaticContact& contact, VectorXd& displaceme
     } catch (const meshes::NotConverged&) {
       return false;
     }
-    if (own.force.norm() <= std::max(tolerance * contact_force, own.round_off_force())) return true;
+    const double enough = std::max(tolerance * contact_force, own.round_off_force());
+    if (own.force.norm() <= enough) return true;
     ++own.effort.newton_iterations;
-    if (!own.find_step(step) || !own.search(contact, step, displacement)) return false;
+    const double now = own.force.norm();
+    const double found = i == 0 ? worst_accuracy : std::pow(now / before, 2);
+    own.accuracy = std::clamp(std::max(found, 0.5 * enough / now), best_accuracy, worst_accuracy);
+    before = now;
+    if (!own.find_step(step) || !own.search(contact, step, displacement, stored)) return false;
   }
   return false;
 }

@@ -15,16 +15,16 @@ inline constexpr double force_tolerance = 1e-9;
 /// What a search for equilibrium has cost.
 struct Effort {
   int newton_iterations = 0;
-  int factorisations = 0;
+  int factorisations = 0;  ///< of coarsest grids: preconditioners made
+  int gradients = 0;       ///< of conjugate gradients for Newton's steps
 };
 
 /// Finds displacements at which elastic and contact forces on the free unknowns cancel, by Newton's
 /// method (semi-smooth where a tie opens or closes) with a backtracking line search on the energy.
 ///
-/// Linear systems are solved by conjugate gradients preconditioned with the Cholesky factor of an
-/// earlier tangent; when that takes too long the present tangent is factorised (supernodal CHOLMOD,
-/// pattern analysed once). Ties that open or close are changes of low rank, for which few
-/// iterations suffice.
+/// Linear systems are solved by conjugate gradients, no better than the next step can use, with a
+/// V-cycle (BlockMultigrid) of an earlier tangent; when that takes too long, of the present one.
+/// The cost of a step is linear in the unknowns.
 class EquilibriumSolver {
  public:
   explicit EquilibriumSolver(const ElasticSystem& system);  // keeps a reference

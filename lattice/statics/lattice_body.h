@@ -13,6 +13,9 @@
 
 namespace fingertip::lattice::inline statics {
 
+/// A point of a cubic grid, counted along its axes.
+using GridPlace = std::array<int, 3>;
+
 /// Two particles and the constant k [N/m] between them.
 struct Spring {
   std::array<std::uint32_t, 2> ends{};
@@ -40,6 +43,9 @@ struct MeanCell {
 struct LatticeBody {
   std::vector<meshes::Vector3> rest;  ///< X per particle [m]
   std::vector<double> mass;           ///< per particle [kg]
+  /// Per particle, counted from the point next to the origin, through which mirror planes go. Empty
+  /// if they lie on no grid.
+  std::vector<GridPlace> places;
   std::vector<Spring> fibres, springs;
   std::vector<MeanCell> cells;
   CellLaw law;

@@ -95,9 +95,9 @@ FINGERTIP_FIELDS(StaticCensusEntry, sectors, particles, springs, cells, unknowns
 
 /// What an equilibrium cost.
 struct EffortEntry {
-  long steps = 0, newton_iterations = 0, factorisations = 0;
+  long steps = 0, newton_iterations = 0, factorisations = 0, gradients = 0;
 };
-FINGERTIP_FIELDS(EffortEntry, steps, newton_iterations, factorisations);
+FINGERTIP_FIELDS(EffortEntry, steps, newton_iterations, factorisations, gradients);
 
 /// What scaled masses are expected to change of the force.
 struct ForceDeviationEntry {

@@ -116,7 +116,8 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::StaticO
   summary.static_census = {long(outcome.sectors), long(outcome.particles), long(outcome.springs),
                            long(outcome.cells),   long(outcome.unknowns),  outcome.volume,
                            outcome.exact_volume};
-  summary.effort = {outcome.steps, outcome.newton_iterations, outcome.factorisations};
+  summary.effort = {outcome.steps, outcome.newton_iterations, outcome.factorisations,
+                    outcome.gradients};
   summary.program = stage_entries(setup.protocol, outcome.response);
   summary.smallest_jacobian = outcome.smallest_jacobian;
   summary.wall_time = outcome.wall_time;

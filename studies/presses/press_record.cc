@@ -60,7 +60,7 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
 double press_weight(const lattice::PressSetup& setup) {
   const double finer = setup.geometry.tip_radius / (12.0 * setup.lattice.spacing);
   return setup.protocol.mode == meshes::DriveMode::equilibrium
-             ? 2.0 * std::pow(finer, 6)
+             ? 0.5 * std::pow(finer, 4)
              : 10.0 * std::pow(finer, 4) / lattice::moving_sectors(setup);
 }
 

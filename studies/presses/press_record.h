@@ -25,8 +25,7 @@ nlohmann::ordered_json rubber_inputs(const meshes::Rubber& rubber, lattice::Kine
 /// presses know neither time nor controller.
 nlohmann::ordered_json inputs_of(const lattice::PressSetup& setup);
 
-/// What a press weighs (Job::weight): masses ~ 1/a³, steps ~ 1/a; factorisations of 3-D lattices ~
-/// 1/a⁶.
+/// What a press weighs (Job::weight): masses ~ 1/a³, steps in time, or of Newton, ~ 1/a.
 double press_weight(const lattice::PressSetup& setup);
 
 /// What the summary.json of every press begins with.
