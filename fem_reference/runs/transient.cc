@@ -92,8 +92,12 @@ class TransientRun : Run {
     MPI_Barrier(MPI_COMM_WORLD);
   }
 
+  /// The coarsest that is near enough; of a meridian, which costs little, the finest: forces at a
+  /// few depths may be near by chance.
   void choose_mesh() {
     const std::size_t meshes = static_presses_.meshes().size();
+    chosen_ = meshes;
+    if (job_.axisymmetric()) return;
     for (chosen_ = 1; chosen_ < meshes; ++chosen_) {
       double worst = 0.0;
       for (std::size_t i = 0; i < job_.protocol.samples.size(); ++i)

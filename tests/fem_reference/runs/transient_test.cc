@@ -385,6 +385,29 @@ TEST(TransientRun, WritesWhatTheContractSays) {
   EXPECT_EQ(line, "time [s],indentation [m],normal_force [N],contact_force [N]");
 }
 
+/// Forces at rest may be near on a coarse mesh by chance; those in motion are not.
+TEST(TransientRun, BarsOfAMeridianReachTheFinerForce) {
+  const auto press = [](double tolerance) {
+    const SharedFolder folder;
+    ReferenceJob job;
+    job.analysis = Analysis::transient;
+    job.press_to({1e-3, 1.5e-3, 2e-3, 2.5e-3, 3e-3});
+    job.protocol.clearance = 5e-3;
+    job.protocol.speed = 0.05;
+    job.tolerance = tolerance;
+    job.write_fields = false;
+    std::ostringstream progress;
+    run_transient(folder.path(), job, progress, [] { return false; });
+    return meshes::PressResponse::read_csv(folder / "response.csv");
+  };
+  const auto coarse = press(0.01), fine = press(0.002);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto &a = coarse.samples().at(i), &b = fine.samples().at(i);
+    EXPECT_NEAR(a.normal_force, b.normal_force, a.force_error + b.force_error) << i;
+    EXPECT_LT(a.force_error, 0.01 * a.normal_force) << i;
+  }
+}
+
 TEST(TransientRun, KeepsFinishedSamplesWhenStopped) {
   const SharedFolder folder;
   ReferenceJob job;
