@@ -18,6 +18,7 @@
 #include "meshes/tables/file_fields.h"
 #include "studies/files/json_entry.h"
 #include "studies/jobs/fem_launch.h"
+#include "studies/jobs/provenance.h"
 
 namespace fingertip::studies::inline jobs {
 
@@ -31,10 +32,6 @@ constexpr auto patience = std::chrono::seconds(10);       ///< from SIGINT to th
 constexpr auto more_patience = std::chrono::seconds(15);  ///< the same for mpirun itself
 
 constexpr double shown_memory = 1e9;  ///< [byte]
-
-double memory_of_machine() {
-  return double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
-}
 
 /// The reading end of a pipe whose writing end a child holds.
 class Pipe {

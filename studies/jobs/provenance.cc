@@ -69,14 +69,17 @@ nlohmann::ordered_json package_versions() {
   return versions;
 }
 
+double memory_of_machine() {
+  return double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
+}
+
 nlohmann::ordered_json host_description() {
   utsname system{};
   ::uname(&system);
-  const auto pages = std::uint64_t(::sysconf(_SC_PHYS_PAGES));
   return {{"cpu", field("/proc/cpuinfo", "model name", ':')},
           {"cores", std::thread::hardware_concurrency()},
           {"blas", blas_in_words()},
-          {"memory [B]", pages * std::uint64_t(::sysconf(_SC_PAGE_SIZE))},
+          {"memory [B]", std::uint64_t(memory_of_machine())},
           {"os", field("/etc/os-release", "PRETTY_NAME", '=')},
           {"kernel", system.release}};
 }

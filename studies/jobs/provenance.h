@@ -15,6 +15,8 @@ nlohmann::ordered_json package_versions();
 /// {"cpu", "cores", "memory [B]", "os", "kernel"} of this machine.
 nlohmann::ordered_json host_description();
 
+double memory_of_machine();  ///< [byte]
+
 /// UTC time as "2026-11-20T05:12:00Z".
 std::string utc_now();
 

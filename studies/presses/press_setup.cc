@@ -9,12 +9,14 @@
 #include "calibration/material/material.h"
 #include "lattice/model/cut_tip.h"
 #include "lattice/press/press_deviation.h"
+#include "lattice/statics/cut_lattice.h"
 #include "meshes/base/files.h"
 #include "meshes/cells/cubic_grid.h"
 #include "studies/config/finger_defaults.h"
 #include "studies/config/keys/key_table.h"
 #include "studies/config/law_card_keys.h"
 #include "studies/config/text/units.h"
+#include "studies/jobs/provenance.h"
 #include "studies/presses/controller_choice.h"
 
 namespace fingertip::studies::inline presses {
@@ -25,6 +27,8 @@ using lattice::ModelKind;
 
 /// Beyond this a press would need more memory than a workstation has.
 constexpr double max_particles = 2e7;
+/// What equilibrium takes per particle computed (lattice/MEASUREMENTS.md) [byte].
+constexpr double memory_at_rest = 9e3;
 
 void check_constants_source(const LoadedConfig& loaded) {
   const bool published = loaded.config.press.lattice.model == ModelKind::published;
@@ -121,15 +125,20 @@ std::vector<meshes::Violation> broken_by_spacing(const LoadedConfig& loaded) {
   const meshes::Geometry& geometry = loaded.config.press.geometry;
   const double spacing = loaded.config.press.lattice.spacing, radius = geometry.tip_radius;
   if (!(spacing <= geometry.coarsest_spacing())) return {meshes::too_coarse(geometry, spacing)};
-  const bool too_many = meshes::expected_particle_count(geometry, spacing) > max_particles;
-  if (!too_many && spacing >= lattice::smallest_spacing * radius) return {};
-  const double finest = std::max(std::cbrt(geometry.tip_volume() / max_particles),
-                                 lattice::smallest_spacing * radius);
+  const double particles = meshes::expected_particle_count(geometry, spacing),
+               memory = equilibrium_memory(loaded.config.press),
+               crowd = std::max(particles / max_particles, memory / memory_of_machine());
+  if (crowd <= 1.0 && spacing >= lattice::smallest_spacing * radius) return {};
+  const double finest = std::max(spacing * std::cbrt(crowd), lattice::smallest_spacing * radius);
   const std::string thin = thin_part(geometry);
+  std::string rule = "the spacing must be at least R/320";
+  if (particles > max_particles)
+    rule = "the tip would consist of more than 20 million masses";
+  else if (crowd > 1.0)
+    rule = fmt::format("its equilibrium would take some {:.2g} GB of the {:.2g} GB here",
+                       1e-9 * memory, 1e-9 * memory_of_machine());
   return {{"lattice.spacing", calibration::rounded(spacing) + " m",
-           (too_many ? std::string("the tip would consist of more than 20 million masses")
-                     : std::string("the spacing must be at least R/320")) +
-               (thin.empty() ? "" : ": " + thin),
+           rule + (thin.empty() ? "" : ": " + thin),
            finest <= geometry.coarsest_spacing()
                ? "choose a coarser lattice, at most tip_radius/" +
                      calibration::rounded(std::floor(radius / finest), 6)
@@ -202,6 +211,12 @@ bool serves_scaled(lattice::PressSetup setup) {
 }
 
 }  // namespace
+
+double equilibrium_memory(const lattice::PressSetup& press) {
+  if (press.protocol.mode != meshes::DriveMode::equilibrium) return 0.0;
+  return memory_at_rest * meshes::expected_particle_count(press.geometry, press.lattice.spacing) /
+         lattice::largest_symmetry(press.geometry, press.lattice, press.protocol);
+}
 
 lattice::PressSetup press_setup(const LoadedConfig& loaded, LatticeUse use) {
   const bool any_spacing = use == LatticeUse::none && is_chosen(loaded);

@@ -26,6 +26,9 @@ LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use);
 /// go with the model, and for a material.toml that cannot be used; NotConverged when a fit fails.
 lattice::PressSetup press_setup(const LoadedConfig& loaded, LatticeUse use = LatticeUse::press);
 
+/// What the equilibrium of a press at rest takes, within a quarter; 0 for one in motion [byte].
+double equilibrium_memory(const lattice::PressSetup& press);
+
 /// The press of a finger whose rod nobody moves but the caller (press.mode pid), for loops of
 /// others. Throws as press_setup.
 lattice::PressSetup free_press(ConfigSource source);
@@ -41,7 +44,7 @@ fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
 calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::ModelKind model);
 
 /// What a lattice of a valid configuration cannot do (lattice::beyond_the_lattice), and that its
-/// spacing makes too many masses.
+/// spacing makes too many masses for this machine.
 std::vector<meshes::Violation> beyond_the_lattice(const LoadedConfig& loaded);
 
 /// Checks everything that does not depend on the verb: press_setup and continuum_setup, but not

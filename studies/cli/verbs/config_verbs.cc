@@ -13,6 +13,9 @@ namespace fingertip::studies::inline cli::inline verbs {
 
 namespace {
 
+/// Memory below it is there [byte].
+constexpr double shown_memory = 1e9;
+
 /// What `calibrate` would note on the data that a configuration names; refuses what it would
 /// refuse.
 std::vector<std::string> notes_on_data(const LoadedConfig& loaded) {
@@ -44,6 +47,9 @@ int run_check(const CommandLine& line) {
     for (const meshes::Violation& limit : located.violations()) {
       fmt::print("{}: note: for press and validate: {}\n", file, to_string(limit));
     }
+    const double memory = equilibrium_memory(complete.config.press);
+    if (memory > shown_memory)
+      fmt::print("{}: note: a press at rest takes some {:.2g} GB\n", file, 1e-9 * memory);
     fmt::print("{}: OK\n", file);
   }
   return 0;

@@ -61,6 +61,20 @@ TEST(PressSetup, ASpacingThatNobodyGaveIsCheckedWhereALatticeIsBuilt) {
 
 /// A pad of 2 mm radius on a rod as thin would sway under the controller, and rubber around a
 /// needle weighs more than it.
+/// 18 million masses: nothing in motion, at rest more than any machine that runs this has.
+TEST(PressSetup, EquilibriumThatDoesNotFitIsRefusedWithASpacingThatWould) {
+  const auto config = [](const char* mode) {
+    return config_of({std::string("press.mode=") + mode, "lattice.spacing=tip_radius/150",
+                      "lattice.offset=[0.1, 0.2, 0.3]"});
+  };
+  EXPECT_GT(equilibrium_memory(config("static").config.press), 1.5e11);
+  EXPECT_EQ(equilibrium_memory(config("quasi-static").config.press), 0.0);
+  EXPECT_NO_THROW(check_all(config("quasi-static")));
+  EXPECT_THROW_SAYING(check_all(config("static")), ConfigError,
+                      (Parts{"lattice.spacing", "its equilibrium would take some", "GB here",
+                             "choose a coarser lattice, at most tip_radius/"}));
+}
+
 TEST(PressSetup, ARodThatNobodyGaveIsHeavyEnough) {
   const TemporaryFolder folder;
   write_text(
