@@ -96,9 +96,7 @@ class TransientRun : Run {
   /// few depths may be near by chance.
   void choose_mesh() {
     const std::size_t meshes = static_presses_.meshes().size();
-    chosen_ = meshes;
-    if (job_.axisymmetric()) return;
-    for (chosen_ = 1; chosen_ < meshes; ++chosen_) {
+    for (chosen_ = job_.axisymmetric() ? meshes : 1; chosen_ < meshes; ++chosen_) {
       double worst = 0.0;
       for (std::size_t i = 0; i < job_.protocol.samples.size(); ++i)
         worst = std::max(worst, difference_to_finest(i));

@@ -34,12 +34,10 @@ Matrix matrix_of(const std::vector<EmbeddedPoint>& ties) {
 /// The bits of three grid coordinates in turn (Morton): what is near in this order is near in
 /// space, so that a slice's rows have most of their columns in common.
 std::uint64_t place_in_space(const LatticeModel& model, std::uint32_t point) {
-  const std::uint64_t nx = std::uint64_t(model.grid.size[0]),
-                      ny = std::uint64_t(model.grid.size[1]);
-  const std::array<std::uint64_t, 3> at{point % nx, point / nx % ny, point / nx / ny};
+  const std::array<int, 3> at = model.place(point);
   std::uint64_t place = 0;
   for (std::size_t bit = 0; bit < 20; ++bit) {
-    for (std::size_t c = 0; c < 3; ++c) place |= (at[c] >> bit & 1) << (3 * bit + c);
+    for (std::size_t c = 0; c < 3; ++c) place |= std::uint64_t(at[c] >> bit & 1) << (3 * bit + c);
   }
   return place;
 }

@@ -75,9 +75,8 @@ GridCells::GridCells(const CubicGrid& grid, std::vector<CutCell> cells)
 }
 
 Vector3 GridCells::rest_position(std::size_t particle) const {
-  const std::size_t point = point_of_[particle];
-  const std::size_t nx = std::size_t(grid_.size[0]), ny = std::size_t(grid_.size[1]);
-  return grid_.position(int(point % nx), int(point / nx % ny), int(point / (nx * ny)));
+  const auto [i, j, k] = grid_.place(point_of_[particle]);
+  return grid_.position(i, j, k);
 }
 
 std::uint32_t GridCells::cell_at(int i, int j, int k) const {

@@ -19,8 +19,7 @@ double LatticeModel::rest_length(Family family) const {
 }
 
 std::array<int, 3> LatticeModel::place(std::size_t point) const {
-  const std::size_t nx = std::size_t(grid.size[0]), ny = std::size_t(grid.size[1]);
-  return {int(point % nx), int(point / nx % ny), int(point / (nx * ny))};
+  return grid.place(point);
 }
 
 Vector3 LatticeModel::rest_position(std::size_t point) const {

@@ -20,7 +20,9 @@ GridPlace coarse_place(const GridPlace& place) {
   return {place[0] >> 1, place[1] >> 1, place[2] >> 1};
 }
 
+/// That of the place itself.
 constexpr std::size_t own_rank = 13;
+
 std::size_t rank(const GridPlace& from, const GridPlace& to) {
   return std::size_t((to[0] - from[0] + 1) + 3 * (to[1] - from[1] + 1) + 9 * (to[2] - from[2] + 1));
 }

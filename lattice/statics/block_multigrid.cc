@@ -17,6 +17,7 @@ namespace {
 
 /// Unknowns that a coarsest grid may have.
 constexpr std::size_t most_factorised = 500;
+
 }  // namespace
 
 struct BlockMultigrid::Implementation {

@@ -54,10 +54,9 @@ Eigen::Matrix<double, 4, 8> mode_weights(double spacing) {
 }
 
 GridPlace place_of(const CubicGrid& grid, std::size_t point) {
+  const auto [i, j, k] = grid.place(point);
   const std::array<int, 3> origin = grid.nearest(Vector3::Zero());
-  const std::size_t row = std::size_t(grid.size[0]), plane = row * std::size_t(grid.size[1]);
-  return {int(point % row) - origin[0], int(point % plane / row) - origin[1],
-          int(point / plane) - origin[2]};
+  return {i - origin[0], j - origin[1], k - origin[2]};
 }
 
 /// Particles, springs and cells; no bond, no outer points, nothing held.

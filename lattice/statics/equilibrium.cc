@@ -44,9 +44,9 @@ struct EquilibriumSolver::Implementation {
   /// What no iteration removes [N].
   double round_off_force() const { return round_off * largest_stiffness * extent; }
   double round_off_energy(double energy) const;
-  bool find_step(VectorXd& step);
+  bool find_step(double accuracy, VectorXd& step);
   bool prepare(double shift);
-  bool iterate(VectorXd& step);
+  bool iterate(double accuracy, VectorXd& step);
   bool is_stale() const { return last_gradients * steps > preparation_cost + gradients; }
   bool search(const StaticContact& contact, const VectorXd& step, VectorXd& displacement,
               double& stored);
@@ -60,9 +60,8 @@ struct EquilibriumSolver::Implementation {
   bool prepared = false;
   /// Since the preconditioner was made: Newton steps by it, their gradients, those of the last.
   int steps = 0, gradients = 0, last_gradients = 0;
-  double accuracy = worst_accuracy;  ///< of the next step
-  double extent = 0.0;               ///< largest coordinate of a particle [m]
-  double largest_stiffness = 0.0;    ///< on the tangent's diagonal [N/m]
+  double extent = 0.0;             ///< largest coordinate of a particle [m]
+  double largest_stiffness = 0.0;  ///< on the tangent's diagonal [N/m]
   Effort effort;
 };
 
@@ -116,7 +115,7 @@ bool EquilibriumSolver::Implementation::prepare(double shift) {
 /// Conjugate gradients for tangent x step = force from step = 0, up to where the energy is found to
 /// curve downward: what they have by then goes downhill (Steihaug 1983). False when the
 /// preconditioner is not positive definite or so old that they take too long.
-bool EquilibriumSolver::Implementation::iterate(VectorXd& step) {
+bool EquilibriumSolver::Implementation::iterate(double accuracy, VectorXd& step) {
   const double enough = accuracy * force.norm();
   VectorXd residual = force, z = preconditioner.solve(residual), direction = z,
            product(step.size());
@@ -148,13 +147,13 @@ bool EquilibriumSolver::Implementation::iterate(VectorXd& step) {
 /// have cost on average, itself included: the average is then least. Where the present tangent is
 /// not positive definite (springs snapping through), the new one is that of a multiple of the
 /// identity more, the smaller the better.
-bool EquilibriumSolver::Implementation::find_step(VectorXd& step) {
+bool EquilibriumSolver::Implementation::find_step(double accuracy, VectorXd& step) {
   step.resize(force.size());
-  if (prepared && !is_stale() && iterate(step)) return true;
+  if (prepared && !is_stale() && iterate(accuracy, step)) return true;
   const double typical = tangent.diagonal().mean();
   double shift = 0.0;
   for (int i = 0; i < max_shifts; ++i) {
-    if (prepare(shift) && iterate(step)) return true;
+    if (prepare(shift) && iterate(accuracy, step)) return true;
     shift = shift > 0.0 ? 10.0 * shift : first_shift * typical;
   }
   return prepared = false;
@@ -236,7 +235,7 @@ bool EquilibriumSolver::solve(const StaticContact& contact, VectorXd& displaceme
                               double tolerance) {
   Implementation& own = *implementation_;
   VectorXd step;
-  double before = 0.0, stored = own.energy(contact, displacement);
+  double before = 0.0, stored = 0.0;
   for (int i = 0; i < max_iterations; ++i) {
     double contact_force = 0.0;
     try {
@@ -244,14 +243,17 @@ bool EquilibriumSolver::solve(const StaticContact& contact, VectorXd& displaceme
     } catch (const meshes::NotConverged&) {
       return false;
     }
-    const double enough = std::max(tolerance * contact_force, own.round_off_force());
-    if (own.force.norm() <= enough) return true;
+    const double enough = std::max(tolerance * contact_force, own.round_off_force()),
+                 now = own.force.norm();
+    if (now <= enough) return true;
     ++own.effort.newton_iterations;
-    const double now = own.force.norm();
-    const double found = i == 0 ? worst_accuracy : std::pow(now / before, 2);
-    own.accuracy = std::clamp(std::max(found, 0.5 * enough / now), best_accuracy, worst_accuracy);
+    if (i == 0) stored = own.energy(contact, displacement);
+    const double found = i == 0 ? worst_accuracy : std::pow(now / before, 2),
+                 accuracy =
+                     std::clamp(std::max(found, 0.5 * enough / now), best_accuracy, worst_accuracy);
     before = now;
-    if (!own.find_step(step) || !own.search(contact, step, displacement, stored)) return false;
+    if (!own.find_step(accuracy, step) || !own.search(contact, step, displacement, stored))
+      return false;
   }
   return false;
 }

@@ -27,6 +27,11 @@ struct CubicGrid {
     return (std::size_t(k) * std::size_t(size[1]) + std::size_t(j)) * std::size_t(size[0]) +
            std::size_t(i);
   }
+  /// The point of an index.
+  std::array<int, 3> place(std::size_t point) const {
+    const std::size_t nx = std::size_t(size[0]), ny = std::size_t(size[1]);
+    return {int(point % nx), int(point / nx % ny), int(point / (nx * ny))};
+  }
   Vector3 position(int i, int j, int k) const {
     return axes * (origin + spacing * Vector3(double(i), double(j), double(k)));
   }

@@ -31,8 +31,6 @@ constexpr int signal_base = 128;
 constexpr auto patience = std::chrono::seconds(10);       ///< from SIGINT to the end by force
 constexpr auto more_patience = std::chrono::seconds(15);  ///< the same for mpirun itself
 
-constexpr double shown_memory = 1e9;  ///< [byte]
-
 /// The reading end of a pipe whose writing end a child holds.
 class Pipe {
  public:

@@ -16,6 +16,8 @@ nlohmann::ordered_json package_versions();
 nlohmann::ordered_json host_description();
 
 double memory_of_machine();  ///< [byte]
+/// Below it nobody is told what a computation takes [byte].
+inline constexpr double shown_memory = 1e9;
 
 /// UTC time as "2026-11-20T05:12:00Z".
 std::string utc_now();

@@ -7,14 +7,12 @@
 #include "studies/config/documents.h"
 #include "studies/fits/runs/calibration_stages.h"
 #include "studies/fits/runs/law_job.h"
+#include "studies/jobs/provenance.h"
 #include "studies/presses/press_setup.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
 
 namespace {
-
-/// Memory below it is there [byte].
-constexpr double shown_memory = 1e9;
 
 /// What `calibrate` would note on the data that a configuration names; refuses what it would
 /// refuse.
