@@ -19,6 +19,9 @@ constexpr int max_rounds = 400;
 constexpr int patience = 8;
 /// Penetration below this length [m] is round-off: a picometre.
 constexpr double gap_noise = 1e-12;
+/// A node that comes as near as this share of its width is expected to touch: what is foreknown is
+/// a solution on another mesh.
+constexpr double foreseen_touch = 1e-2;
 /// Friction forces have converged when a round changes none by more than this, over the largest
 /// push.
 constexpr double friction_converged = 1e-9;
@@ -74,6 +77,12 @@ void PlaneContact::commit() {
       anchor(node, trial_.displacement, 1.0);
     }
   committed_ = trial_;
+  foreknown_ = {};
+}
+
+void PlaneContact::abandon() {
+  trial_ = committed_;
+  foreknown_ = {};
 }
 
 int PlaneContact::active_nodes() const {
@@ -230,21 +239,55 @@ std::vector<std::size_t> PlaneContact::offenders(const ConstrainedSolution& solu
   return result;
 }
 
-void PlaneContact::anchor(std::size_t node, const Eigen::VectorXd& trial, double time) {
-  const auto between = [time](const auto& start, const auto& end) {
+PlanePose PlaneContact::pose_on_the_way(double time) const {
+  const auto between = [time](double start, double end) {
     return (1.0 - time) * start + time * end;
   };
-  const PlanePose pose{between(committed_.pose.height, trial_.pose.height),
-                       between(committed_.pose.shift, trial_.pose.shift)};
+  return {between(committed_.pose.height, trial_.pose.height),
+          between(committed_.pose.shift, trial_.pose.shift)};
+}
+
+meshes::Vector3 PlaneContact::on_the_way(std::size_t node, const Eigen::VectorXd& end,
+                                         double time) const {
   const meshes::Vector3 start = of_node(node, committed_.displacement);
-  meshes::Vector3 place = start + time * (of_node(node, trial) - start);
+  meshes::Vector3 place = start + time * (of_node(node, end) - start);
+  // The bend is linear between the times, and none at the ends of the step.
+  const std::vector<double>& times = foreknown_.times;
+  const auto after = std::size_t(std::ranges::lower_bound(times, time) - times.begin());
+  const double from = after == 0 ? 0.0 : times[after - 1],
+               to = after == times.size() ? 1.0 : times[after];
+  const double share = to > from ? (time - from) / (to - from) : 0.0;
+  if (after > 0) place += (1.0 - share) * of_node(node, foreknown_.bends[after - 1]);
+  if (after < times.size()) place += share * of_node(node, foreknown_.bends[after]);
+  return place;
+}
+
+double PlaneContact::first_touch(std::size_t node, const Eigen::VectorXd& end,
+                                 double gap_at_end) const {
+  double from = 0.0, before = std::max(0.0, gap(node, committed_.displacement, committed_.pose));
+  const auto touch = [&](double to, double after) {
+    return before > after ? from + (to - from) * before / (before - after) : to;
+  };
+  for (const double time : foreknown_.times) {
+    const double after =
+        gap_and_normal(node, on_the_way(node, end, time), pose_on_the_way(time)).gap;
+    if (after < 0.0) return touch(time, after);
+    from = time, before = after;
+  }
+  return gap_at_end < 0.0 ? touch(1.0, gap_at_end) : 1.0;
+}
+
+void PlaneContact::anchor(std::size_t node, const Eigen::VectorXd& end, double time) {
+  const PlanePose pose = pose_on_the_way(time);
+  meshes::Vector3 place = on_the_way(node, end, time);
   // On the obstacle: of what is curved, the way there is not quite straight.
   const GapAndNormal left = gap_and_normal(node, place, pose);
   place -= left.gap * left.normal;
   trial_.anchors[node] = {place.x() - pose.shift, place.y(), place.z() - pose.height};
 }
 
-void PlaneContact::change(std::size_t node, const ConstrainedSolution& solution) {
+void PlaneContact::change(std::size_t node, const ConstrainedSolution& solution,
+                          const Eigen::VectorXd& end) {
   const auto& of_node = unknowns_.of_node[node];
   NodeStatus& status = trial_.status[node];
   for (std::size_t c = 0; c < 2; ++c)
@@ -254,19 +297,30 @@ void PlaneContact::change(std::size_t node, const ConstrainedSolution& solution)
     ++releases_[node];
     return;
   }
-  const double before = std::max(0.0, gap(node, committed_.displacement, committed_.pose));
-  const double after = gap_of_solution(node, solution.displacement);
   const bool twice = mode_ == ContactMode::stick && releases_[node] > 1;
-  anchor(node, in_plane_axes(solution.displacement), twice ? 1.0 : before / (before - after));
-  status = mode_ == ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
+  anchor(node, end,
+         twice ? 1.0 : first_touch(node, end, gap_of_solution(node, solution.displacement)));
+  status = touching();
+}
+
+void PlaneContact::foresee(ForeknownStep step, const PlanePose& pose) {
+  foreknown_ = std::move(step);
+  trial_.pose = pose;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node) {
+    const SurfaceNode& at = unknowns_.nodes[node];
+    const double left = gap(node, foreknown_.end, pose),
+                 width = at.area > 0.0 ? at.area / at.extent : 0.0;
+    if (!is_open(node) || left > foreseen_touch * width) continue;
+    trial_.status[node] = touching();
+    anchor(node, foreknown_.end, first_touch(node, foreknown_.end, left));
+  }
 }
 
 void PlaneContact::touch_at_start() {
   for (std::size_t node = 0; node < trial_.status.size(); ++node)
     if (trial_.status[node] == NodeStatus::open &&
         gap(node, committed_.displacement, committed_.pose) <= gap_noise) {
-      trial_.status[node] =
-          mode_ == ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
+      trial_.status[node] = touching();
       anchor(node, committed_.displacement, 0.0);
     }
 }
@@ -337,7 +391,8 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
     stalled = wrong.size() < fewest ? 0 : stalled + 1;
     fewest = std::min(fewest, wrong.size());
     if (stalled > patience && wrong.size() > 1) wrong.erase(wrong.begin() + 1, wrong.end());
-    for (const std::size_t node : wrong) this->change(node, solution);
+    const Eigen::VectorXd end = in_plane_axes(solution.displacement);
+    for (const std::size_t node : wrong) this->change(node, solution, end);
   }
   throw meshes::NotConverged("the contact state did not converge within " +
                              std::to_string(max_rounds) + " rounds");

@@ -25,6 +25,14 @@ enum class NodeStatus : char {
   slide,  ///< on the plane, under the friction that its push allows (none when frictionless)
 };
 
+/// What is known beforehand of a step, in plane axes [m]: where the contact unknowns will be at its
+/// end, and by how much they are off the straight line there at times between, 0 ... 1, increasing.
+struct ForeknownStep {
+  Eigen::VectorXd end;
+  std::vector<double> times;
+  std::vector<Eigen::VectorXd> bends;
+};
+
 struct ContactEffort {
   int rounds = 0;
   int cg_iterations = 0;
@@ -46,7 +54,8 @@ struct ContactEffort {
 ///
 /// Stick: a node put on the plane is anchored at its lateral position at first touch, interpolated
 /// linearly between the start of the step and the trial state in which it was found penetrating.
-/// The error of the anchor is of second order in the step. Anchors move with the plane. A plane
+/// The error of the anchor is of second order in the step, or in the times at which the way is
+/// foreknown. Anchors move with the plane. A plane
 /// that moves laterally may pull a node off that would penetrate as soon as it is let go: neither
 /// held where it was nor open is a solution. It has come off and down again within the step; pulled
 /// off a second time, it is anchored where it comes down, at the end of the step.
@@ -78,6 +87,9 @@ class PlaneContact {
   /// Of the nodes, for the solver; none unless the obstacle is curved.
   std::vector<NodeAxes> axes() const;
 
+  /// Before the first `solve` of a step to `pose`: touching are from now on also the nodes that are
+  /// expected to touch at its end, each anchored at its first touch on the way there.
+  void foresee(ForeknownStep step, const PlanePose& pose);
   /// Finds the contact state under the plane at `pose` for the solver's present linear system.
   /// Newton's method calls it repeatedly, each time starting from the last answer; the state stays
   /// a trial until `commit`. Throws NotConverged.
@@ -85,7 +97,7 @@ class PlaneContact {
   /// The trial becomes the state from which the next step starts.
   void commit();
   /// Back to the last committed state.
-  void abandon() { trial_ = committed_; }
+  void abandon();
 
   const ContactUnknowns& unknowns() const { return unknowns_; }
   /// Of the trial, one per candidate node.
@@ -159,9 +171,18 @@ class PlaneContact {
   bool is_open(std::size_t node) const { return trial_.status[node] == NodeStatus::open; }
   bool follows(std::size_t node) const { return leader(node) != node; }
   std::vector<std::size_t> offenders(const ConstrainedSolution& solution, double noise) const;
-  void change(std::size_t node, const ConstrainedSolution& solution);
-  /// Anchors a node where it was at `time`, 0 ... 1, between the start of the step and `trial`.
-  void anchor(std::size_t node, const Eigen::VectorXd& trial, double time);
+  /// `end` is the solution in plane axes.
+  void change(std::size_t node, const ConstrainedSolution& solution, const Eigen::VectorXd& end);
+  NodeStatus touching() const {
+    return mode_ == meshes::ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
+  }
+  PlanePose pose_on_the_way(double time) const;
+  /// Displacement of a node at a time of the step that ends at `end` [m].
+  meshes::Vector3 on_the_way(std::size_t node, const Eigen::VectorXd& end, double time) const;
+  /// When, 0 ... 1, a node first touches on the way to `end`, where its gap is `gap_at_end` [m].
+  double first_touch(std::size_t node, const Eigen::VectorXd& end, double gap_at_end) const;
+  /// Anchors a node where it is at `time`, 0 ... 1, of the step that ends at `end`.
+  void anchor(std::size_t node, const Eigen::VectorXd& end, double time);
   /// One round of Coulomb's law; the largest change of a friction force over the largest push.
   double update_friction(const ConstrainedSolution& solution, double relaxation, double noise);
 
@@ -176,6 +197,7 @@ class PlaneContact {
   };
   std::vector<Frame> frames_;  ///< of the nodes under a curved obstacle
   State committed_, trial_;
+  ForeknownStep foreknown_;    ///< of the present step, if anything is
   std::vector<int> releases_;  ///< of each node, since `solve` began
 };
 

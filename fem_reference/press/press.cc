@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "fem_reference/job/processes.h"
@@ -14,6 +15,15 @@ namespace {
 
 /// A step that does not converge is halved this often before giving up.
 constexpr int max_halvings = 6;
+/// On a mesh the way to which is known from a coarser one, what long steps miss is how the two ways
+/// differ, which halves from mesh to mesh: so steps may double. Not where so little is tolerated
+/// that this would show [of the force].
+constexpr double tolerates_long_steps = 0.01, error_of_long_steps = 1.5e-3;
+
+/// Shorter for a tolerance below that.
+double share_of_long_steps(const ReferenceJob& job) {
+  return std::min(1.0, job.tolerance / tolerates_long_steps);
+}
 
 }  // namespace
 
@@ -25,15 +35,36 @@ ContinuumPress::ContinuumPress(const ReferenceJob& job, std::function<bool()> st
       // 0.15 %. Without friction only Newton's method asks for steps.
       steps_(frictionless() ? Steps{1.0, 1.0, 0.1} : Steps{0.1, 0.25, 0.01}) {}
 
+double ContinuumPress::step_error(const ReferenceJob& job) {
+  const bool sticks = job.protocol.contact == meshes::ContactMode::stick;
+  return sticks && keeps_way(job) ? error_of_long_steps * share_of_long_steps(job) : 0.0;
+}
+
+bool ContinuumPress::keeps_way(const ReferenceJob& job) {
+  return job.estimate_error && job.strain == Strain::finite && job.rubber.relaxation.empty() &&
+         !job.axisymmetric();
+}
+
+ContinuumPress::Steps ContinuumPress::steps_to(double target) const {
+  const int meshes = meshes_before(target);
+  if (meshes == 0 || job_.protocol.contact == meshes::ContactMode::coulomb) return steps_;
+  constexpr double any = std::numeric_limits<double>::infinity();
+  if (frictionless()) return {1.0, 1.0, any};
+  const double longer = std::ldexp(share_of_long_steps(job_), meshes);
+  if (longer <= 1.0) return steps_;
+  return {std::min(1.0, longer * steps_.first), longer * steps_.growth, any};
+}
+
 double ContinuumPress::next_step(double target, double limit) const {
   if (one_step()) return target;
   const PressCourse::Leg& leg = course_.leg(target);
-  const double longest = limit * steps_.longest * job_.geometry.thickness();
-  double step = std::min(longest, place_ > 0.0 ? limit * steps_.growth * place_
-                                               : limit * steps_.first * std::min(target, longest));
+  const Steps steps = steps_to(target);
+  const double longest = limit * steps.longest * job_.geometry.thickness();
+  double step = std::min(longest, place_ > 0.0 ? limit * steps.growth * place_
+                                               : limit * steps.first * std::min(target, longest));
   if (leg.rate > 1.0) step /= leg.rate;
   if (leg.rate == 0.0) step = target - place_;
-  if (relaxes()) step = std::min(step, limit * steps_.of_relaxing * (target - leg.begin));
+  if (relaxes()) step = std::min(step, limit * steps.of_relaxing * (target - leg.begin));
   const double pieces = std::ceil((target - place_) / step - 1e-9);
   return pieces <= 1.0 ? target
                        : std::min(target, place_ + std::min(step, (target - place_) / pieces));

@@ -29,6 +29,11 @@ class ContinuumPress {
   static std::unique_ptr<ContinuumPress> on(const ReferenceJob& job,
                                             const std::filesystem::path& mesh_file,
                                             std::function<bool()> stop_requested = {});
+  /// By which forces of such a job may be off, over themselves, for the steps of a way that was
+  /// found on coarser meshes; 0 where its steps are the usual ones or do not matter. Compared with
+  /// usual steps on every mesh: MEASUREMENTS.md, The known way.
+  static double step_error(const ReferenceJob& job);
+
   virtual ~ContinuumPress() = default;
   ContinuumPress(const ContinuumPress&) = delete;
   ContinuumPress& operator=(const ContinuumPress&) = delete;
@@ -79,10 +84,17 @@ class ContinuumPress {
 
   /// One step to `place` [m]; adds what it cost to `effort`. Throws NotConverged.
   virtual void step(double place, bool sampled, PressEffort& effort) = 0;
+  /// From how many coarser meshes the way to `place` [m] is known.
+  virtual int meshes_before(double place) const = 0;
   /// Back to the last step that converged.
   virtual void abandon() = 0;
   /// Reads the sample off the present state and remembers where its error is large.
   virtual PressState evaluate() = 0;
+
+  /// Whether what is found on a mesh shortens the way on the next: at large strain, where each step
+  /// costs several factorisations. A meridian's cost nothing; friction and relaxation remember more
+  /// than first touch, and keep their steps: relaxation all, Coulomb's law their length.
+  static bool keeps_way(const ReferenceJob& job);
 
   const ReferenceJob job_;
   const PressCourse course_;
@@ -98,6 +110,8 @@ class ContinuumPress {
   bool frictionless() const { return job_.protocol.contact == meshes::ContactMode::frictionless; }
   bool relaxes() const { return !job_.rubber.relaxation.empty(); }
   bool one_step() const { return frictionless() && job_.strain == Strain::linear && !relaxes(); }
+  /// The steps to a sample.
+  Steps steps_to(double target) const;
   double next_step(double target, double limit) const;
 
   const std::function<bool()> stop_requested_;

@@ -3,6 +3,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/grid_refinement.h>
+#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/numerics/error_estimator.h>
 
 #include <Eigen/Cholesky>
@@ -232,10 +233,25 @@ bool TipPress<dim>::refine(double share, const std::vector<char>& wanted) {
       body_->triangulation, indicators, share, 0.0);
   for (const auto& cell : body_->triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && at_edge[cell->active_cell_index()]) cell->set_refine_flag();
+  body_->triangulation.prepare_coarsening_and_refinement();
+  std::vector<Vector> known;
+  std::vector<const Vector*> sources;
+  std::vector<Vector*> targets;
+  for (const auto& [place, state] : way_.points()) known.push_back(body_->fine.ghosted(state));
+  for (const Vector& state : known) sources.push_back(&state);
+  dealii::parallel::distributed::SolutionTransfer<dim, Vector> transfer(body_->fine.dofs);
+  if (!sources.empty()) transfer.prepare_for_coarsening_and_refinement(sources);
   body_->triangulation.execute_coarsening_and_refinement();
   body_->number(tip_supports<dim>());
   if (double(body_->unknowns()) > job_.max_unknowns) return false;
+  const int meshes = way_.meshes() + 1;
+  KnownWay::Points points;
+  for (const auto& [place, state] : way_.points())
+    targets.push_back(&(points[place] = body_->fine.vector()));
+  if (!targets.empty()) transfer.interpolate(targets);
+  for (Vector* state : targets) body_->fine.constraints.distribute(*state);
   prepare();
+  if (!points.empty()) way_ = KnownWay(meshes, std::move(points), 0.0, displacement_);
   return true;
 }
 

@@ -83,6 +83,7 @@ void TipPress<dim>::prepare() {
                                             job_.protocol.obstacle, job_.strain == Strain::finite);
   place_ = 0.0;
   displacement_.reinit(body_->fine.vector());
+  way_ = keeps_way(job_) ? KnownWay(0, {{0.0, displacement_}}, 0.0, displacement_) : KnownWay();
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);
   if (job_.strain == Strain::linear) {
     linear_memory_ = LinearMemory<dim>(*body_, job_);
@@ -115,7 +116,7 @@ void TipPress<dim>::step(double place, bool sampled, PressEffort& effort) {
   if (job_.strain == Strain::linear)
     linear_step(target, effort);
   else
-    newton_step(target, sampled, effort);
+    newton_step(place, sampled, effort);
   try {
     check_other_nodes(place);
   } catch (...) {
@@ -125,7 +126,25 @@ void TipPress<dim>::step(double place, bool sampled, PressEffort& effort) {
   contact_->commit();
   linear_memory_.advance(before, displacement_);
   point_memory_.advance(displacement_);
+  if (keeps_way(job_)) way_.pass(place, displacement_);
   place_ = place;
+}
+
+template <int dim>
+Vector TipPress<dim>::foreseen(double place) {
+  if (!way_.reaches(place)) return displacement_;
+  Vector end = way_.known(place);
+  const Eigen::VectorXd start = at_contact(way_.known(place_)), there = at_contact(end);
+  // So that short steps start near where they end: what one mesh finds is rough on a finer one.
+  end += way_.difference();
+  ForeknownStep step{at_contact(end), {}, {}};
+  for (const double between : way_.until(place)) {
+    const double time = (between - place_) / (place - place_);
+    step.times.push_back(time);
+    step.bends.emplace_back(at_contact(way_.known(between)) - (1.0 - time) * start - time * there);
+  }
+  contact_->foresee(std::move(step), pose(place));
+  return end;
 }
 
 template <int dim>
@@ -178,13 +197,14 @@ double TipPress<dim>::residual(const Vector& displacement, const PlanePose& targ
 }
 
 template <int dim>
-void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressEffort& effort) {
+void TipPress<dim>::newton_step(double place, bool sampled, PressEffort& effort) {
+  const PlanePose target = pose(place);
   const double wanted = sampled ? balanced : nearly_balanced;
   // An iterative solver leaves out-of-balance forces of its own.
   const double enough = solver_kind_ == LinearSolver::multigrid
                             ? std::max(wanted, 10.0 * job_.solver_tolerance)
                             : wanted;
-  Vector u = displacement_;
+  Vector u = foreseen(place);
   bool stale = true;  // the tangent
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_newton_iterations; ++iteration) {

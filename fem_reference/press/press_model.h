@@ -12,6 +12,7 @@
 #include "fem_reference/contact/plane_contact.h"
 #include "fem_reference/elements/memory.h"
 #include "fem_reference/output/press_fields.h"
+#include "fem_reference/press/known_way.h"
 #include "fem_reference/press/press.h"
 #include "fem_reference/solvers/field_solver.h"
 #include "fem_reference/tip/tip_body.h"
@@ -43,6 +44,7 @@ class TipPress final : public ContinuumPress {
 
  private:
   void step(double place, bool sampled, PressEffort& effort) override;
+  int meshes_before(double place) const override { return way_.reaches(place) ? way_.meshes() : 0; }
   void abandon() override { contact_->abandon(); }
   PressState evaluate() override;
   /// Chooses the solver of the numbered mesh, and puts the tip at rest under the plane.
@@ -52,7 +54,9 @@ class TipPress final : public ContinuumPress {
   /// The material of a step of that length [s]; of a rubber that relaxes it depends on both.
   void prepare_step(double duration);
   void linear_step(const PlanePose& target, PressEffort& effort);
-  void newton_step(const PlanePose& target, bool sampled, PressEffort& effort);
+  /// Where Newton's method starts from; contact starts from what is expected at `place`.
+  Vector foreseen(double place);
+  void newton_step(double place, bool sampled, PressEffort& effort);
   Eigen::VectorXd at_contact(const Vector& field) const;
   /// Assembles the force at `displacement`; force of the system minus the plane's forces, where
   /// nothing is held, over the largest nodal force. Notes how far what touches is off the obstacle.
@@ -84,6 +88,7 @@ class TipPress final : public ContinuumPress {
   LinearMemory<dim> linear_memory_;  ///< of that step, at small strain
   PointMemory<dim> point_memory_;    ///< at large strain
   double off_surface_ = 0.0;         ///< [m]
+  KnownWay way_;
   /// Where a sample asks for smaller elements, per local cell.
   struct Marks {
     dealii::Vector<float> indicators;  ///< squared error indicators over their sum

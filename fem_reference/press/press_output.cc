@@ -197,6 +197,12 @@ void TipPress<dim>::save(const std::filesystem::path& folder) const {
   std::vector<Vector> displacements = {body_->fine.ghosted(displacement_)};
   for (const Vector& branch : linear_memory_.branches())
     displacements.push_back(body_->fine.ghosted(branch));
+  std::vector<double> way;
+  for (const auto& [place, state] : way_.points()) {
+    way.push_back(place);
+    displacements.push_back(body_->fine.ghosted(state));
+  }
+  if (!way.empty()) displacements.push_back(body_->fine.ghosted(way_.difference()));
   std::vector<Vector> marks;
   for (const Marks& sample : marks_)
     for (const auto* values : {&sample.indicators, &sample.edge})
@@ -221,6 +227,8 @@ void TipPress<dim>::save(const std::filesystem::path& folder) const {
   for (const NodeStatus node : state.status) status.push_back(int(node));
   const Json json{{"place", place_},
                   {"samples", marks_.size()},
+                  {"way", way},
+                  {"meshes_before", way_.meshes()},
                   {"status", status},
                   {"anchors", state.anchors},
                   {"displacement", to_json(state.displacement)},
@@ -272,11 +280,18 @@ void TipPress<dim>::load(const std::filesystem::path& folder) {
   const Json json = Json::parse(dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, text.str()));
   std::vector<Vector*> displacements = {&displacement_};
   for (Vector& branch : linear_memory_.branches()) displacements.push_back(&branch);
+  const auto places = json.at("way").get<std::vector<double>>();
+  std::vector<Vector> way(places.empty() ? 0 : places.size() + 1, body_->fine.vector());
+  for (Vector& state : way) displacements.push_back(&state);
   Transfer<dim>(body_->fine.dofs).deserialize(displacements);
   load_marks(json.at("samples").get<std::size_t>());
   load_stresses();
 
   place_ = json.at("place").get<double>();
+  KnownWay::Points points;
+  for (std::size_t i = 0; i < places.size(); ++i) points.emplace(places[i], way[i]);
+  if (!places.empty())
+    way_ = KnownWay(json.at("meshes_before").get<int>(), std::move(points), place_, way.back());
   PlaneContact::State state;
   state.pose = pose(place_);
   for (const int node : json.at("status").get<std::vector<int>>())

@@ -18,10 +18,12 @@ constexpr double largest_condensed = 300000;
 /// below; by the iterations of the contact on a matrix that is factored; by multigrid.
 constexpr double factor_time = 0.0072, factor_power = 1.33, contact_time = 0.001,
                  multigrid_time = 0.18;
-/// Factorisations, or solutions by multigrid, of one sample at large strain.
-constexpr double newton_steps = 3.0;
-/// Of the unknowns, from one mesh to the next where half of the error is refined: 1.05 to 1.4.
-constexpr double usual_growth = 1.2;
+/// Factorisations, or solutions by multigrid, of one sample at large strain: in one step, and in
+/// the small ones that remember where nodes touch and how they slide.
+constexpr double newton_steps = 4.0, newton_steps_remembering = 25.0;
+/// Of the unknowns, from one mesh to the next where half of the error is refined: 1.05 to 1.4 for a
+/// solid, whose first mesh its shape makes fine; else 1.4 to 3.
+constexpr double usual_growth_of_solid = 1.2, usual_growth = 2.0;
 constexpr double base_memory = 2e8, memory_per_unknown = 1.75e4;  // [byte]
 
 }  // namespace
@@ -53,15 +55,19 @@ LinearSolver choose_solver(const ReferenceJob& job, double unknowns) {
                                                          : LinearSolver::multigrid;
 }
 
-SolutionCost solution_cost(const ReferenceJob& job, double unknowns) {
+SolutionCost solution_cost(const ReferenceJob& job, double unknowns, bool first_mesh) {
+  using meshes::ContactMode;
+  const ContactMode contact = job.protocol.contact;
+  const bool remembers = contact == ContactMode::coulomb ||
+                         (contact == ContactMode::stick && (first_mesh || !job.estimate_error));
+  const double steps = remembers ? newton_steps_remembering : newton_steps;
   const double thousands = 1e-3 * unknowns;
   const double factor = factor_time * std::pow(thousands, factor_power);
   const double memory = base_memory + memory_per_unknown * unknowns;
   const bool finite = job.strain == Strain::finite;
   if (choose_solver(job, unknowns) == LinearSolver::multigrid)
-    return {contact_time * thousands, (finite ? newton_steps : 1.0) * multigrid_time * thousands,
-            memory};
-  if (finite) return {contact_time * thousands, newton_steps * factor, memory};
+    return {contact_time * thousands, (finite ? steps : 1.0) * multigrid_time * thousands, memory};
+  if (finite) return {contact_time * thousands, steps * factor, memory};
   return {factor, contact_time * thousands, memory};
 }
 
@@ -90,28 +96,32 @@ void PressWork::resume(double unknowns, std::size_t meshes, std::size_t samples_
 void PressWork::assembled(double unknowns) {
   unknowns_ = unknowns;
   assembled_ = true;
-  work_done_ += solution_cost(job_, unknowns).mesh;
+  work_done_ += solution_cost(job_, unknowns, number_ == 1).mesh;
 }
 
 void PressWork::pressed() {
   ++pressed_;
-  work_done_ += solution_cost(job_, unknowns_).sample;
+  work_done_ += solution_cost(job_, unknowns_, number_ == 1).sample;
+}
+
+double PressWork::growth() const {
+  return job_.geometry.solid ? usual_growth_of_solid : usual_growth;
 }
 
 void PressWork::refine() {
-  unknowns_ *= usual_growth;
+  unknowns_ *= growth();
   assembled_ = false;
   ++number_;
   pressed_ = 0;
 }
 
 Expected PressWork::expected(double wall_time) const {
-  SolutionCost cost = solution_cost(job_, unknowns_);
+  SolutionCost cost = solution_cost(job_, unknowns_, number_ == 1);
   double work = double(samples_ - pressed_) * cost.sample;
   if (!assembled_) work += cost.mesh;
   double unknowns = unknowns_;
   for (std::size_t number = number_; number < fewest_meshes_; ++number) {
-    cost = solution_cost(job_, unknowns *= usual_growth);
+    cost = solution_cost(job_, unknowns *= growth(), false);
     work += cost.mesh + double(samples_) * cost.sample;
   }
   return {(work_done_ > 0.0 ? wall_time / work_done_ : 1.0) * work, cost.memory};

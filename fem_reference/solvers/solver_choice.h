@@ -13,14 +13,15 @@ namespace fingertip::fem_reference::inline solvers {
 /// for a meridian or the condensed solver on several processes.
 LinearSolver choose_solver(const ReferenceJob& job, double unknowns);
 
-/// What a static press costs on one mesh: within a factor of two on two cores of a desktop, from
-/// presses of solids with 5e4 to 4e5 unknowns (MEASUREMENTS.md); for what is told beforehand.
+/// What a static press costs on one mesh, more on the first of a sequence, on which its way is
+/// found: within a factor of two on two cores of a desktop, from presses of solids with 4e3 to 4e5
+/// unknowns (MEASUREMENTS.md); for what is told beforehand.
 struct SolutionCost {
   double mesh = 0.0;    ///< to assemble, and to factor what serves all samples [s]
   double sample = 0.0;  ///< of one equilibrium [s]
   double memory = 0.0;  ///< peak of all processes together [byte]
 };
-SolutionCost solution_cost(const ReferenceJob& job, double unknowns);
+SolutionCost solution_cost(const ReferenceJob& job, double unknowns, bool first_mesh);
 
 /// Of the job's elements on a mesh of `cells` quadrilaterals or hexahedra with `corners`. By
 /// Euler's formula it has corners + cells - 1 edges, or 2 corners + cells - 1 edges and corners + 2
@@ -53,6 +54,8 @@ class PressWork {
   Expected expected(double wall_time) const;
 
  private:
+  double growth() const;
+
   const ReferenceJob& job_;
   const std::size_t samples_, fewest_meshes_;
   double unknowns_ = 0.0;  ///< of the mesh at hand

@@ -177,6 +177,51 @@ TEST(PlaneContact, AnchorsDoNotDependOnTheSteps) {
   EXPECT_NEAR((coarse.reaction(1) - fine.reaction(1)).norm(), 0.0, 1e-12);
 }
 
+/// The way there bends by 0.03 at half time: at 0.4, where node 2 touches, by 0.024.
+TEST(PlaneContact, AForeknownWayAnchorsWhereItTouchesFirst) {
+  DenseBody body(dragging_springs());
+  PlaneContact contact = sticking(nodes_at({1.0, 0.9}, true));
+  const Eigen::VectorXd end = Eigen::VectorXd{{0.0, 0.0, -0.25, 0.125, 0.0, 0.0}},
+                        bend = Eigen::VectorXd{{0.0, 0.0, 0.0, 0.03, 0.0, 0.0}};
+  contact.foresee({end, {0.5}, {bend}}, {start.height - 0.25, 0.0});
+  EXPECT_EQ(contact.active_nodes(), 2);
+  press(contact, body, 0.25);
+  const double r1 = contact.reaction(0).z(), r2 = contact.reaction(1).x();
+  EXPECT_NEAR(-0.5 * r1 + r2, 0.5 * 0.1 + 0.024, 1e-12);
+  // What is foreknown serves one step.
+  press(contact, body, 0.3);
+  EXPECT_NEAR(-0.5 * contact.reaction(0).z() + contact.reaction(1).x(), 0.5 * 0.1 + 0.024, 1e-12);
+}
+
+/// Where the way bends into the plane and out again, the first of both counts.
+TEST(PlaneContact, AForeknownWayMayTouchBetween) {
+  DenseBody body(dragging_springs());
+  PlaneContact contact = sticking(nodes_at({1.0, 0.9}, true));
+  const Eigen::VectorXd end = Eigen::VectorXd{{0.0, 0.0, -0.25, 0.125, 0.0, 0.0}},
+                        bend = Eigen::VectorXd{{0.0, 0.0, 0.0, 0.0, 0.0, 0.1}};
+  contact.foresee({end, {0.4}, {bend}}, {start.height - 0.25, 0.0});
+  press(contact, body, 0.25);
+  // It rises by 0.1 until 0.4, the plane falls by 0.1: they meet half way.
+  EXPECT_NEAR(-0.5 * contact.reaction(0).z() + contact.reaction(1).x(), 0.5 * 0.05, 1e-12);
+}
+
+TEST(PlaneContact, WhatIsForeseenInVainLeavesNoTrace) {
+  DenseBody body(dragging_springs());
+  const auto pressed = [&](const Eigen::VectorXd& end, bool abandoned) {
+    PlaneContact contact = sticking(nodes_at({1.0, 0.9}, true));
+    contact.foresee({end, {}, {}}, {start.height - 0.05, 0.0});
+    if (abandoned) contact.abandon();
+    EXPECT_EQ(contact.active_nodes(), abandoned ? 0 : 2);
+    press(contact, body, 0.05);
+    EXPECT_EQ(contact.active_nodes(), 1);
+    return contact.reaction(0);
+  };
+  const Eigen::VectorXd wrong = Eigen::VectorXd{{0.0, 0.0, -0.05, 0.0, 0.0, 0.2}};
+  const meshes::Vector3 expected = pressed(wrong, true);
+  EXPECT_GT(expected.norm(), 0.0);
+  EXPECT_NEAR((pressed(wrong, false) - expected).norm(), 0.0, 1e-12);
+}
+
 TEST(PlaneContact, AnchorsMoveWithThePlane) {
   DenseBody body(Eigen::Vector3d(2.0, 3.0, 4.0).asDiagonal());
   PlaneContact contact = sticking(nodes_at({1.0}, true));

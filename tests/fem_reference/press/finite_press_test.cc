@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "meshes/base/errors.h"
 #include "tests/fem_reference/press/pressing.h"
@@ -130,6 +131,57 @@ TEST(FinitePress, FrictionHoldsTheTip) {
   EXPECT_LT(coulomb.lateral_force_x, stick.lateral_force_x);
   EXPECT_LE(coulomb.lateral_force_x, 0.1 * coulomb.normal_force * (1 + 1e-9));
   EXPECT_GT(coulomb.sliding_nodes, 0);
+}
+
+/// Forces on a refined mesh, to which the way is known from the first, and their steps.
+std::vector<PressState> on_the_second_mesh(ReferenceJob job) {
+  job.estimate_error = true;
+  job.press_to({4e-4, 8e-4});
+  Pressing pressing(job);
+  for (const double depth : job.protocol.samples) pressing.press.advance(depth);
+  pressing.press.refine(0.5);
+  std::vector<PressState> states;
+  for (const double depth : job.protocol.samples) states.push_back(pressing.press.advance(depth));
+  return states;
+}
+
+TEST(FinitePress, TheWayOnACoarserMeshSavesSteps) {
+  ReferenceJob job = finite_press();
+  job.protocol.tilt = 0.1;
+  job.protocol.contact = ContactMode::stick;
+  job.tolerance = 1e-4;  // tolerates no long steps
+  const std::vector<PressState> patient = on_the_second_mesh(job);
+  job.tolerance = 0.01;
+  const std::vector<PressState> hasty = on_the_second_mesh(job);
+  job.estimate_error = true;
+  const double error = fem_reference::ContinuumPress::step_error(job);
+  EXPECT_GT(error, 1e-4);
+  for (std::size_t i = 0; i < hasty.size(); ++i) {
+    EXPECT_LT(3 * hasty[i].steps, patient[i].steps);
+    EXPECT_NEAR(hasty[i].normal_force / patient[i].normal_force, 1.0, error);
+    EXPECT_NEAR(hasty[i].lateral_force_x, patient[i].lateral_force_x,
+                2 * error * patient[i].normal_force);
+  }
+}
+
+/// Without friction a single step, and the same force: against a ball, too.
+TEST(FinitePress, WithoutFrictionTheKnownWayTakesOneStep) {
+  for (const auto shape : {meshes::ObstacleShape::plane, meshes::ObstacleShape::sphere}) {
+    ReferenceJob job = finite_press();
+    job.protocol.obstacle.shape = shape;
+    job.protocol.obstacle.offset = shape == meshes::ObstacleShape::plane ? 0.0 : 2e-3;
+    const std::vector<PressState> states = on_the_second_mesh(job);
+    for (const PressState& state : states) EXPECT_EQ(state.steps, 1);
+    job.estimate_error = false;
+    job.press_to({8e-4});
+    Pressing pressing(job);
+    for (const double depth : {4e-4, 8e-4}) pressing.press.advance(depth);
+    pressing.press.refine(0.5);
+    const PressState alone = pressing.press.advance(8e-4);
+    EXPECT_GT(alone.steps, 1);
+    EXPECT_NEAR(states.back().normal_force / alone.normal_force, 1.0, 1e-6);
+    EXPECT_NEAR(states.back().energy / alone.energy, 1.0, 1e-6);
+  }
 }
 
 /// A step too long is halved, not given up.

@@ -82,6 +82,17 @@ TEST(PressCheckpoint, LargeStrainByMultigrid) {
   check(job, true, 1e-7);
 }
 
+TEST(PressCheckpoint, OnAKnownWay) {
+  ReferenceJob job = small_press();
+  job.protocol.contact = ContactMode::stick;
+  job.strain = Strain::finite;
+  job.estimate_error = true;
+  job.tolerance = 0.02;
+  job.refinement = 0.25;
+  job.press_to({3e-4, 6e-4});
+  check(job, true, 1e-12);
+}
+
 TEST(PressCheckpoint, OfAnotherJobIsRefused) {
   ReferenceJob job = small_press();
   Pressing first(job);
