@@ -39,8 +39,8 @@ constexpr double refined_share = 0.5;
 constexpr double meridian_safety = 1.2;
 /// Element counts of the first mesh over those that a single mesh would have. A meridian's more: on
 /// fewer the first meshes are too coarse for the error estimate, and cost as many steps as any. A
-/// solid's fewer, where the way along the first saves steps on all others.
-constexpr double meridian_counts = 2.0, solid_counts = 0.5;
+/// solid's fewer at large strain, where the way along the first saves steps on all others.
+constexpr double meridian_counts = 2.0, finite_solid_counts = 0.5;
 /// Of the largest force of a program: smaller ones need not be known better than one of that size.
 constexpr double min_share = 0.1;
 /// Refining every element multiplies the unknowns by at most this.
@@ -168,9 +168,11 @@ class PressRun : Run {
   }
 
   void make_mesh() {
-    const double counts = job_.axisymmetric()   ? meridian_counts
-                          : job_.estimate_error ? solid_counts
-                                                : 1.0;
+    double counts = 1.0;
+    if (job_.axisymmetric())
+      counts = meridian_counts;
+    else if (job_.estimate_error && job_.strain == Strain::finite)
+      counts = finite_solid_counts;
     mesh_quality_ = write_mesh_once(job_.geometry, mesh_options(job_, counts * job_.refinement),
                                     folder_ / "tip.msh");
   }
