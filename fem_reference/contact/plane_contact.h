@@ -55,10 +55,10 @@ struct ContactEffort {
 /// Stick: a node put on the plane is anchored at its lateral position at first touch, interpolated
 /// linearly between the start of the step and the trial state in which it was found penetrating.
 /// The error of the anchor is of second order in the step, or in the times at which the way is
-/// foreknown. Anchors move with the plane. A plane
-/// that moves laterally may pull a node off that would penetrate as soon as it is let go: neither
-/// held where it was nor open is a solution. It has come off and down again within the step; pulled
-/// off a second time, it is anchored where it comes down, at the end of the step.
+/// foreknown. Anchors move with the plane. A plane that moves laterally may pull a node off that
+/// would penetrate as soon as it is let go: neither held where it was nor open is a solution. It
+/// has come off and down again within the step; pulled off a second time, it is anchored where it
+/// comes down, at the end of the step.
 ///
 /// A node without area, the pole of a meridian, has no share of the pressure: its reaction says
 /// nothing while its neighbours push. It follows the nearest node with area when that touches, and

@@ -3,7 +3,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/grid_refinement.h>
-#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/numerics/error_estimator.h>
 
 #include <Eigen/Cholesky>
@@ -14,6 +13,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "fem_reference/elements/kinematics.h"
 #include "fem_reference/press/contact_edge.h"
@@ -235,21 +235,23 @@ bool TipPress<dim>::refine(double share, const std::vector<char>& wanted) {
     if (cell->is_locally_owned() && at_edge[cell->active_cell_index()]) cell->set_refine_flag();
   body_->triangulation.prepare_coarsening_and_refinement();
   std::vector<Vector> known;
-  std::vector<const Vector*> sources;
-  std::vector<Vector*> targets;
   for (const auto& [place, state] : way_.points()) known.push_back(body_->fine.ghosted(state));
-  for (const Vector& state : known) sources.push_back(&state);
-  dealii::parallel::distributed::SolutionTransfer<dim, Vector> transfer(body_->fine.dofs);
-  if (!sources.empty()) transfer.prepare_for_coarsening_and_refinement(sources);
+  Transfer<dim> transfer(body_->fine.dofs);
+  if (!known.empty())
+    transfer.prepare_for_coarsening_and_refinement(pointers_to(std::as_const(known)));
   body_->triangulation.execute_coarsening_and_refinement();
   body_->number(tip_supports<dim>());
   if (double(body_->unknowns()) > job_.max_unknowns) return false;
+  std::vector<Vector> carried(known.size(), body_->fine.vector());
+  auto targets = pointers_to(carried);
+  if (!carried.empty()) transfer.interpolate(targets);
   const int meshes = way_.meshes() + 1;
   KnownWay::Points points;
-  for (const auto& [place, state] : way_.points())
-    targets.push_back(&(points[place] = body_->fine.vector()));
-  if (!targets.empty()) transfer.interpolate(targets);
-  for (Vector* state : targets) body_->fine.constraints.distribute(*state);
+  for (const auto& [place, state] : way_.points()) {
+    Vector& here = carried[points.size()];
+    body_->fine.constraints.distribute(here);
+    points.emplace(place, here);
+  }
   prepare();
   if (!points.empty()) way_ = KnownWay(meshes, std::move(points), 0.0, displacement_);
   return true;

@@ -2,6 +2,7 @@
 /// side of ContinuumPress.
 #pragma once
 
+#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/numerics/data_component_interpretation.h>
 
 #include <filesystem>
@@ -18,6 +19,18 @@
 #include "fem_reference/tip/tip_body.h"
 
 namespace fingertip::fem_reference::inline press {
+
+/// Carries fields to a refined mesh, or through a file.
+template <int dim>
+using Transfer = dealii::parallel::distributed::SolutionTransfer<dim, Vector>;
+
+/// What it takes: of a const list pointers to const fields.
+template <typename Fields>
+auto pointers_to(Fields& fields) {
+  std::vector<decltype(fields.data())> list;
+  for (auto& field : fields) list.push_back(&field);
+  return list;
+}
 
 /// A sample's state, to be written while the mesh is the same.
 struct PressSnapshot {

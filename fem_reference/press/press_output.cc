@@ -1,7 +1,6 @@
 /// Files for ParaView, the section, and checkpoints of a press.
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_system.h>
@@ -12,6 +11,7 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fem_reference/job/processes.h"
@@ -84,15 +84,6 @@ void for_each_entry(const TravellingFields<dim>& fields, auto& stresses, auto ac
       for (unsigned c = 0; c < 6; ++c)
         action(values(c, q), unknowns[fields.dofs().get_fe().component_to_system_index(c, q)]);
   });
-}
-
-template <int dim>
-using Transfer = dealii::parallel::distributed::SolutionTransfer<dim, Vector>;
-
-std::vector<const Vector*> pointers_to(const std::vector<Vector>& fields) {
-  std::vector<const Vector*> list;
-  for (const Vector& field : fields) list.push_back(&field);
-  return list;
 }
 
 Json to_json(const Eigen::VectorXd& v) {
@@ -211,15 +202,16 @@ void TipPress<dim>::save(const std::filesystem::path& folder) const {
             [&](unsigned cell, const auto& unknown) { own[unknown[0]] = double((*values)[cell]); });
       }));
   Transfer<dim> displacement_transfer(body_->fine.dofs), cell_transfer(cells.dofs());
-  displacement_transfer.prepare_for_serialization(pointers_to(displacements));
-  if (!marks.empty()) cell_transfer.prepare_for_serialization(pointers_to(marks));
+  displacement_transfer.prepare_for_serialization(pointers_to(std::as_const(displacements)));
+  if (!marks.empty()) cell_transfer.prepare_for_serialization(pointers_to(std::as_const(marks)));
   Transfer<dim> point_transfer(points.dofs());
   std::vector<Vector> stresses;
   for (const PointStresses* field : point_memory_.stresses())
     stresses.push_back(points.filled([&](Vector& own) {
       for_each_entry(points, *field, [&](double value, auto unknown) { own[unknown] = value; });
     }));
-  if (!stresses.empty()) point_transfer.prepare_for_serialization(pointers_to(stresses));
+  if (!stresses.empty())
+    point_transfer.prepare_for_serialization(pointers_to(std::as_const(stresses)));
   body_->triangulation.save((folder / "mesh").string());
   if (!first_process()) return;
   const PlaneContact::State& state = contact_->committed();
@@ -243,8 +235,7 @@ void TipPress<dim>::load_marks(std::size_t samples) {
   const TravellingFields<dim> cells = cell_fields(*body_);
   const dealii::Vector<float> empty(body_->triangulation.n_active_cells());
   std::vector<Vector> fields(2 * samples, cells.zero());
-  std::vector<Vector*> list;
-  for (Vector& field : fields) list.push_back(&field);
+  auto list = pointers_to(fields);
   Transfer<dim> transfer(cells.dofs());
   transfer.deserialize(list);
   for (std::size_t i = 0; i < samples; ++i) {
@@ -262,8 +253,7 @@ void TipPress<dim>::load_stresses() {
   const TravellingFields<dim> points = point_fields(*body_);
   const std::vector<PointStresses*> stresses = point_memory_.stresses();
   std::vector<Vector> fields(stresses.size(), points.zero());
-  std::vector<Vector*> list;
-  for (Vector& field : fields) list.push_back(&field);
+  auto list = pointers_to(fields);
   Transfer<dim>(points.dofs()).deserialize(list);
   for (std::size_t i = 0; i < fields.size(); ++i)
     for_each_entry(points, *stresses[i],

@@ -96,12 +96,16 @@ void PressWork::resume(double unknowns, std::size_t meshes, std::size_t samples_
 void PressWork::assembled(double unknowns) {
   unknowns_ = unknowns;
   assembled_ = true;
-  work_done_ += solution_cost(job_, unknowns, number_ == 1).mesh;
+  work_done_ += cost().mesh;
 }
 
 void PressWork::pressed() {
   ++pressed_;
-  work_done_ += solution_cost(job_, unknowns_, number_ == 1).sample;
+  work_done_ += cost().sample;
+}
+
+SolutionCost PressWork::cost() const {
+  return solution_cost(job_, unknowns_, number_ == 1);
 }
 
 double PressWork::growth() const {
@@ -116,7 +120,7 @@ void PressWork::refine() {
 }
 
 Expected PressWork::expected(double wall_time) const {
-  SolutionCost cost = solution_cost(job_, unknowns_, number_ == 1);
+  SolutionCost cost = this->cost();
   double work = double(samples_ - pressed_) * cost.sample;
   if (!assembled_) work += cost.mesh;
   double unknowns = unknowns_;

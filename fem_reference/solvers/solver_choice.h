@@ -54,7 +54,8 @@ class PressWork {
   Expected expected(double wall_time) const;
 
  private:
-  double growth() const;
+  SolutionCost cost() const;  ///< of the mesh at hand
+  double growth() const;      ///< of the unknowns, to the next
 
   const ReferenceJob& job_;
   const std::size_t samples_, fewest_meshes_;
