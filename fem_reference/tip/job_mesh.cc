@@ -14,10 +14,13 @@ namespace fingertip::fem_reference::inline tip {
 meshes::Sector sector(const ReferenceJob& job) {
   using meshes::Sector;
   if (job.axisymmetric()) return Sector::meridian;
-  if (job.geometry.solid) return Sector::full;
+  const meshes::Solid* solid = job.geometry.solid.get();
+  const bool modes = job.analysis == Analysis::modes;
+  if (solid && (modes || !solid->mirrored(1))) return Sector::full;
   const meshes::PressProtocol& press = job.protocol;
-  const bool mirrored = press.tilt == 0.0 && press.lateral == 0.0 && press.obstacle.mirrored();
-  return mirrored || job.analysis == Analysis::modes ? Sector::quarter : Sector::half;
+  const bool mirrored = (!solid || solid->mirrored(0)) && press.tilt == 0.0 &&
+                        press.lateral == 0.0 && press.obstacle.mirrored();
+  return mirrored || modes ? Sector::quarter : Sector::half;
 }
 
 double copies(meshes::Sector sector) {

@@ -6,6 +6,7 @@
 
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
+#include "meshes/shape/solid.h"
 
 namespace fingertip::lattice::inline model {
 
@@ -102,9 +103,11 @@ CubicGrid tip_grid(const Geometry& geometry, const LatticeSettings& settings, in
 }
 
 int grid_symmetry(const Geometry& geometry, const LatticeSettings& settings) {
-  if (geometry.solid) return 1;
-  if (!settings.axes.isIdentity(0.0) || settings.offset.y() != 0.0) return 1;
-  return settings.offset.x() == 0.0 ? 4 : 2;
+  if (!settings.axes.isIdentity(0.0)) return 1;
+  const auto mirrored = [&](int axis) {
+    return settings.offset[axis] == 0.0 && (!geometry.solid || geometry.solid->mirrored(axis));
+  };
+  return !mirrored(1) ? 1 : mirrored(0) ? 4 : 2;
 }
 
 std::vector<Violation> sector_violations(const Geometry& geometry, const LatticeSettings& settings,
@@ -114,7 +117,8 @@ std::vector<Violation> sector_violations(const Geometry& geometry, const Lattice
   return {
       {"sectors", std::to_string(sectors),
        "the tip divides into 1, 2 or 4 parts, and into several only along planes of grid points",
-       "compute the whole tip, or remove offset and rotation; a solid is always whole"}};
+       "compute the whole tip, or remove offset and rotation; a solid must be its own mirror "
+       "image"}};
 }
 
 double lowest_contact(const Geometry& geometry) {

@@ -38,66 +38,6 @@ double signed_height(const HalfSpace& space, const Vector3& w) {
   return w[space.axis] - space.limit;
 }
 
-/// Cuts triangles along planes, edges once for both their triangles.
-class Cutter {
- public:
-  explicit Cutter(TriangleMesh& mesh) : mesh_(mesh) {
-    Eigen::AlignedBox3d box;
-    for (const Vector3& vertex : mesh.vertices) box.extend(vertex);
-    grain_ = in_plane * box.sizes().maxCoeff();
-  }
-
-  double grain() const { return grain_; }
-
-  void cut(const HalfSpace& plane) {
-    std::map<std::pair<int, int>, int> cuts;
-    std::vector<std::array<int, 3>> pieces;
-    std::vector<int> faces;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto& triangle = mesh_.triangles[t];
-      std::array<std::vector<int>, 2> sides;  // below and above
-      for (std::size_t c = 0; c < 3; ++c) {
-        const int a = triangle[c], b = triangle[(c + 1) % 3];
-        const int from = side(plane, a), to = side(plane, b);
-        if (from <= 0) sides[0].push_back(a);
-        if (from >= 0) sides[1].push_back(a);
-        if (from * to >= 0) continue;
-        const auto [place, is_new] = cuts.try_emplace(std::minmax(a, b), 0);
-        if (is_new) place->second = meeting(plane, place->first);
-        for (auto& polygon : sides) polygon.push_back(place->second);
-      }
-      // A triangle that only touches the plane, or lies in it, is not cut.
-      if (sides[0].size() < 3 || sides[1].size() < 3 || sides[0] == sides[1])
-        pieces.push_back(triangle);
-      else
-        for (const auto& polygon : sides)
-          for (std::size_t c = 2; c < polygon.size(); ++c)
-            pieces.push_back({polygon[0], polygon[c - 1], polygon[c]});
-      if (!mesh_.faces.empty()) faces.resize(pieces.size(), mesh_.faces[t]);
-    }
-    mesh_.triangles = std::move(pieces);
-    mesh_.faces = std::move(faces);
-  }
-
- private:
-  int side(const HalfSpace& plane, int vertex) const {
-    const double height = signed_height(plane, mesh_.vertices[std::size_t(vertex)]);
-    return std::abs(height) <= grain_ ? 0 : height > 0.0 ? 1 : -1;
-  }
-  int meeting(const HalfSpace& plane, const std::pair<int, int>& edge) {
-    const Vector3 a = mesh_.vertices[std::size_t(edge.first)],
-                  b = mesh_.vertices[std::size_t(edge.second)];
-    const double from = signed_height(plane, a), to = signed_height(plane, b);
-    Vector3 w = a + from / (from - to) * (b - a);
-    w[plane.axis] = plane.limit;
-    mesh_.vertices.push_back(w);
-    return int(mesh_.vertices.size()) - 1;
-  }
-
-  TriangleMesh& mesh_;
-  double grain_ = 0.0;
-};
-
 bool within(const Region& region, const Triangle& corners, double grain) {
   return std::ranges::any_of(region, [&](const std::vector<HalfSpace>& all) {
     return std::ranges::all_of(all, [&](const HalfSpace& space) {
@@ -192,13 +132,15 @@ double bottom_of_side_bond(const Solid& solid, const TriangleTree& tree) {
 Solid::Solid(const TriangleMesh& mesh, const Region& bond, const std::vector<std::string>& faces)
     : mesh_(closed_surface(mesh)) {
   check_crossings(mesh_);
-  Cutter cutter(mesh_);
+  Eigen::AlignedBox3d box;
+  for (const Vector3& vertex : mesh_.vertices) box.extend(vertex);
+  const double grain = in_plane * box.sizes().maxCoeff();
   for (const auto& all : bond)
-    for (const HalfSpace& space : all) cutter.cut(space);
+    for (const HalfSpace& space : all) cut_along(mesh_, space.axis, space.limit, grain);
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     const int face = mesh_.faces.empty() ? -1 : mesh_.faces[t];
     const bool is_held =
-        within(bond, corners(t), cutter.grain()) ||
+        within(bond, corners(t), grain) ||
         (face >= 0 && std::ranges::find(faces, mesh_.face_names[std::size_t(face)]) != faces.end());
     groups_.push_back(is_held ? bond_group : contact_group);
   }
@@ -230,6 +172,31 @@ void Solid::complete() {
 
 bool Solid::is(ProfileSurface surface, std::size_t triangle) const {
   return surface == (is_bond(triangle) ? ProfileSurface::bond : ProfileSurface::contact);
+}
+
+bool Solid::mirrored(int axis) const {
+  const std::size_t at = std::size_t(axis);
+  std::call_once(image_compared_[at], [&] { mirrored_[at] = compare_with_image(axis); });
+  return mirrored_[at];
+}
+
+bool Solid::compare_with_image(int axis) const {
+  const auto has_image = [&](Vector3 w, int group) {
+    w[axis] = -w[axis];
+    return tree_->nearest(w, group)->distance <= mirrored_within * radius_;
+  };
+  std::array<std::vector<bool>, 2> known;  // corners of facets that may touch, and that are held
+  for (auto& corners : known) corners.resize(mesh_.vertices.size());
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (!has_image(mesh_.centroid(t), groups_[t])) return false;
+    auto& own = known[std::size_t(groups_[t])];
+    for (const int corner : mesh_.triangles[t]) {
+      if (own[std::size_t(corner)]) continue;
+      if (!has_image(mesh_.vertices[std::size_t(corner)], groups_[t])) return false;
+      own[std::size_t(corner)] = true;
+    }
+  }
+  return true;
 }
 
 std::array<Vector3, 3> Solid::corners(std::size_t t) const {

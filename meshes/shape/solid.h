@@ -40,7 +40,13 @@ class Solid final : public Shape {
   /// Tells solids apart: a digest of vertices, triangles and what is bonded.
   const std::string& content() const { return content_; }
   bool contains(const Vector3& w) const { return tree_->contains(w); }
-  /// surface_points() of one of its surfaces; areas and their first moments add up exactly.
+  /// Whether it is its own mirror image in the plane through the origin across an axis (0: x, 1:
+  /// y): corners and middles of facets have their image within mirrored_within of its largest
+  /// radius, held where they are.
+  bool mirrored(int axis) const;
+  static constexpr double mirrored_within = 1e-4;
+  /// surface_points() of one of its surfaces; areas and their first moments add up exactly. Of a
+  /// mirrored solid they are those of the part at x, y >= 0 and their images.
   std::vector<SurfacePoint> points(ProfileSurface surface, double spacing) const;
 
   double signed_distance(const Vector3& w) const override;
@@ -83,6 +89,9 @@ class Solid final : public Shape {
          radius_ = 0.0, bond_top_ = 0.0, bond_radius_ = 0.0, pole_radius_ = 0.0;
   mutable std::once_flag wall_known_;
   mutable double wall_ = 0.0;
+  bool compare_with_image(int axis) const;
+  mutable std::array<std::once_flag, 2> image_compared_;
+  mutable std::array<bool, 2> mirrored_{};
 };
 
 }  // namespace fingertip::meshes::inline shape

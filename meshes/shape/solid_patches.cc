@@ -137,12 +137,23 @@ std::vector<SurfacePoint> Solid::points(ProfileSurface surface, double spacing) 
     double area = 0.0;
     Vector3 moment = Vector3::Zero(), vector = Vector3::Zero();
   };
+  // Of a mirrored solid those of the part at x, y >= 0, and their images.
+  TriangleMesh mesh = mesh_;
+  mesh.faces = groups_;
+  std::vector<int> mirrors;
+  for (const int axis : {0, 1})
+    if (mirrored(axis)) mirrors.push_back(axis);
+  for (const int axis : mirrors) cut_along(mesh, axis, 0.0, mirrored_within * radius_);
   std::map<SurfaceParts::Key, Sum> sums;
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const Vector3 vector = mesh_.area_vector(t);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vector3 vector = mesh.area_vector(t), centre = mesh.centroid(t);
     const double whole = vector.norm();
-    if (!is(surface, t) || whole == 0.0) continue;
-    for_each_patch(corners(t), spacing, whole, [&](const Vector3& middle, double area) {
+    const bool held = mesh.faces[t] == bond_group;
+    if (surface != (held ? ProfileSurface::bond : ProfileSurface::contact) || whole == 0.0 ||
+        std::ranges::any_of(mirrors, [&](int axis) { return centre[axis] < 0.0; }))
+      continue;
+    const std::array<Vector3, 3> own{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+    for_each_patch(own, spacing, whole, [&](const Vector3& middle, double area) {
       Sum& sum = sums[SurfaceParts::key_of(middle, vector, size)];
       sum.area += area;
       sum.moment += area * middle;
@@ -152,6 +163,14 @@ std::vector<SurfacePoint> Solid::points(ProfileSurface surface, double spacing) 
   std::vector<SurfacePoint> points;
   for (const auto& [key, sum] : sums)
     points.push_back({sum.moment / sum.area, sum.vector.normalized(), sum.area});
+  for (const int axis : mirrors) {
+    const std::size_t known = points.size();
+    for (std::size_t i = 0; i < known; ++i) {
+      points.push_back(points[i]);
+      points.back().position[axis] *= -1.0;
+      points.back().normal[axis] *= -1.0;
+    }
+  }
   return points;
 }
 

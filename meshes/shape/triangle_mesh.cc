@@ -285,4 +285,53 @@ TriangleMesh closed_surface(const TriangleMesh& mesh) {
   return result;
 }
 
+std::map<std::pair<int, int>, int> cut_along(TriangleMesh& mesh, int axis, double limit,
+                                             double grain) {
+  const auto height = [&](int vertex) { return mesh.vertices[std::size_t(vertex)][axis] - limit; };
+  const auto side = [&](int vertex) {
+    const double own = height(vertex);
+    return std::abs(own) <= grain ? 0 : own > 0.0 ? 1 : -1;
+  };
+  std::map<std::pair<int, int>, int> cuts;
+  const auto meeting = [&](int a, int b) {
+    const auto [place, is_new] = cuts.try_emplace(std::minmax(a, b), int(mesh.vertices.size()));
+    if (is_new) {  // once for both triangles of an edge
+      const auto [low, high] = place->first;
+      const double from = height(low), to = height(high);
+      const Vector3 &start = mesh.vertices[std::size_t(low)],
+                    &end = mesh.vertices[std::size_t(high)];
+      Vector3 w = start + from / (from - to) * (end - start);
+      w[axis] = limit;
+      mesh.vertices.push_back(w);
+    }
+    return place->second;
+  };
+  std::vector<std::array<int, 3>> pieces;
+  std::vector<int> faces;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& triangle = mesh.triangles[t];
+    std::array<std::vector<int>, 2> sides;  // below and above
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int a = triangle[c], b = triangle[(c + 1) % 3];
+      const int from = side(a), to = side(b);
+      if (from <= 0) sides[0].push_back(a);
+      if (from >= 0) sides[1].push_back(a);
+      if (from * to >= 0) continue;
+      const int cut = meeting(a, b);
+      for (auto& polygon : sides) polygon.push_back(cut);
+    }
+    // A triangle that only touches the plane, or lies in it, is not cut.
+    if (sides[0].size() < 3 || sides[1].size() < 3 || sides[0] == sides[1])
+      pieces.push_back(triangle);
+    else
+      for (const auto& polygon : sides)
+        for (std::size_t c = 2; c < polygon.size(); ++c)
+          pieces.push_back({polygon[0], polygon[c - 1], polygon[c]});
+    if (!mesh.faces.empty()) faces.resize(pieces.size(), mesh.faces[t]);
+  }
+  mesh.triangles = std::move(pieces);
+  mesh.faces = std::move(faces);
+  return cuts;
+}
+
 }  // namespace fingertip::meshes::inline shape

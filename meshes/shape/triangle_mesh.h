@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshes/shape/shape.h"
@@ -41,6 +43,12 @@ TriangleMesh closed_surface(const TriangleMesh& mesh);
 
 /// Throws InvalidInput with the place where triangles of such a surface cross each other.
 void check_crossings(const TriangleMesh& mesh);
+
+/// Cuts triangles that straddle the plane w[axis] = limit; corners within `grain` [m] lie in it.
+/// Pieces have their triangle's face. Returns the new vertices by the ends of the edges they cut,
+/// the smaller number first.
+std::map<std::pair<int, int>, int> cut_along(TriangleMesh& mesh, int axis, double limit,
+                                             double grain);
 
 /// ", or name faces: base, rim", for remedies; nothing without names.
 std::string or_faces(const std::vector<std::string>& names);

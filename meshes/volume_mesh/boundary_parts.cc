@@ -13,6 +13,7 @@
 #include "meshes/shape/meridian.h"
 #include "meshes/shape/revolved_surface.h"
 #include "meshes/shape/solid.h"
+#include "meshes/volume_mesh/cut_surface.h"
 
 namespace fingertip::meshes::inline volume_mesh {
 namespace {
@@ -34,54 +35,13 @@ constexpr double max_branches = 0.1;
 /// 0.97 of what is missing at a lip of 10 degrees.
 constexpr int max_steps = 1000;
 
-double turned(const Vector2& a, const Vector2& b, const Vector2& c) {
-  return cross(b - a, c - b);
-}
-
-/// Numbers of the corners of triangles that fill a simple polygon, counter-clockwise as it is.
-std::vector<std::array<std::size_t, 3>> filled(const std::vector<Vector2>& polygon) {
-  std::vector<std::size_t> left(polygon.size());
-  std::iota(left.begin(), left.end(), 0);
-  std::vector<std::array<std::size_t, 3>> triangles;
-  const auto is_ear = [&](std::size_t a, std::size_t b, std::size_t c) {
-    const Vector2 &p = polygon[a], &q = polygon[b], &r = polygon[c];
-    if (!(turned(p, q, r) > 0.0)) return false;
-    return std::ranges::none_of(left, [&](std::size_t other) {
-      if (other == a || other == b || other == c) return false;
-      const Vector2& w = polygon[other];
-      return turned(p, q, w) >= 0.0 && turned(q, r, w) >= 0.0 && turned(r, p, w) >= 0.0;
-    });
-  };
-  while (left.size() > 2) {
-    // The fattest ear, so that no sliver is left at the end.
-    std::size_t best = left.size();
-    double widest = -1.0;
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      const std::size_t a = left[(i + left.size() - 1) % left.size()], b = left[i],
-                        c = left[(i + 1) % left.size()];
-      if (!is_ear(a, b, c)) continue;
-      const double wide =
-          turned(polygon[a], polygon[b], polygon[c]) / (polygon[c] - polygon[a]).squaredNorm();
-      if (wide > widest) widest = wide, best = i;
-    }
-    if (best == left.size())
-      throw NotConverged("the section of the finger could not be filled with triangles");
-    triangles.push_back(
-        {left[(best + left.size() - 1) % left.size()], left[best], left[(best + 1) % left.size()]});
-    left.erase(left.begin() + std::ptrdiff_t(best));
-  }
-  return triangles;
-}
-
 class RevolvedParts final : public BoundaryParts {
  public:
   explicit RevolvedParts(const Geometry& geometry) : meridian_(geometry.corners()) {}
 
-  int count() const override { return int(meridian_.pieces().size()) + 2; }
+  int own_count() const override { return int(meridian_.pieces().size()); }
 
-  PhysicalTag tag(int part) const override {
-    if (part == plane_y()) return PhysicalTag::symmetry_y;
-    if (part == plane_x()) return PhysicalTag::symmetry_x;
+  PhysicalTag own_tag(int part) const override {
     switch (piece(part).surface()) {
       case ProfileSurface::contact: return PhysicalTag::outer;
       case ProfileSurface::bond: return PhysicalTag::bond;
@@ -92,9 +52,7 @@ class RevolvedParts final : public BoundaryParts {
   }
 
   bool hides_edges(int) const override { return false; }
-  Vector3 nearest(int part, const Vector3& w) const override {
-    if (part == plane_y()) return {w.x(), 0.0, w.z()};
-    if (part == plane_x()) return {0.0, w.y(), w.z()};
+  Vector3 own_nearest(int part, const Vector3& w) const override {
     const double r = w.head<2>().norm();
     const Vector2 found = piece(part).at(piece(part).nearest({r, w.z()}));
     const double scale = r > 0.0 ? found.x() / r : 0.0;
@@ -114,18 +72,20 @@ class RevolvedParts final : public BoundaryParts {
       result.parts.push_back(part);
     };
     const int other = sector == Sector::half ? plane_y() : plane_x();
-    const auto& rings = bands.rings;
-    for (const auto& [a, b, c] : filled(outline.corners)) {
-      add(rings[a].front(), rings[b].front(), rings[c].front(), plane_y());
-      add(rings[a].back(), rings[c].back(), rings[b].back(), other);
+    const auto first = [&](int corner) { return bands.rings[std::size_t(corner)].front(); };
+    const auto last = [&](int corner) { return bands.rings[std::size_t(corner)].back(); };
+    std::vector<std::array<int, 2>> sides;
+    const int corners = int(outline.corners.size());
+    for (int i = 0; i < corners; ++i) sides.push_back({i, (i + 1) % corners});
+    for (const auto& [a, b, c] : filled(outline.corners, sides)) {
+      add(first(a), first(b), first(c), plane_y());
+      add(last(a), last(c), last(b), other);
     }
     return result;
   }
 
  private:
   const MeridianPiece& piece(int part) const { return meridian_.pieces()[std::size_t(part)]; }
-  int plane_y() const { return count() - 2; }
-  int plane_x() const { return count() - 1; }
 
   MeridianPolygon chords() const {
     return chords_of(meridian_, [&](const MeridianPiece& piece) {
@@ -181,19 +141,26 @@ class SolidParts final : public BoundaryParts {
     hides_edges_.resize(bonded_.size());
     for (const std::size_t t : united)
       if (solid_->is_bond(t)) hides_edges_[std::size_t(parts_[t])] = true;
-    tree_ = std::make_unique<TriangleTree>(mesh, parts_, this->count());
+    tree_ = std::make_unique<TriangleTree>(mesh, parts_, own_count());
   }
 
-  int count() const override { return int(bonded_.size()); }
-  PhysicalTag tag(int part) const override {
+  int own_count() const override { return int(bonded_.size()); }
+  PhysicalTag own_tag(int part) const override {
     return bonded_[std::size_t(part)] ? PhysicalTag::bond : PhysicalTag::outer;
   }
-  bool hides_edges(int part) const override { return hides_edges_[std::size_t(part)]; }
-  Vector3 nearest(int part, const Vector3& w) const override {
-    const auto hit = tree_->nearest(w, part);
-    return hit ? hit->position : w;
+  bool hides_edges(int part) const override {
+    return part < own_count() && hides_edges_[std::size_t(part)];
   }
-  PartedSurface surface(Sector) const override { return {solid_->mesh(), parts_, creases_}; }
+  Vector3 own_nearest(int part, const Vector3& w) const override {
+    return tree_->nearest(w, part)->position;
+  }
+  PartedSurface surface(Sector sector) const override {
+    PartedSurface all{solid_->mesh(), parts_, creases_};
+    const double grain = Solid::mirrored_within * solid_->largest_radius();
+    if (sector != Sector::full) all = positive_side(std::move(all), 1, grain, plane_y());
+    if (sector == Sector::quarter) all = positive_side(std::move(all), 0, grain, plane_x());
+    return all;
+  }
 
  private:
   /// An edge and its two triangles.
@@ -302,6 +269,17 @@ class SolidParts final : public BoundaryParts {
 };
 
 }  // namespace
+
+PhysicalTag BoundaryParts::tag(int part) const {
+  if (part == plane_y()) return PhysicalTag::symmetry_y;
+  return part == plane_x() ? PhysicalTag::symmetry_x : own_tag(part);
+}
+
+Vector3 BoundaryParts::nearest(int part, const Vector3& w) const {
+  if (part == plane_y()) return {w.x(), 0.0, w.z()};
+  if (part == plane_x()) return {0.0, w.y(), w.z()};
+  return own_nearest(part, w);
+}
 
 int BoundaryParts::part_at(PhysicalTag wanted, const Vector3& w) const {
   int best = -1;

@@ -10,20 +10,20 @@
 
 namespace fingertip::meshes::inline volume_mesh {
 
-/// Immutable. Numbers from 0; those of a body of revolution are the pieces of its meridian and the
-/// planes y = 0 and x = 0, of a solid the facets that neighbours continue within 40 degrees.
-/// Lengths in metres.
+/// Immutable. Numbers from 0; those of a body of revolution are the pieces of its meridian, of a
+/// solid the facets that neighbours continue within 40 degrees; the mirror planes y = 0 and x = 0
+/// come last. Lengths in metres.
 class BoundaryParts {
  public:
   virtual ~BoundaryParts() = default;
 
-  virtual int count() const = 0;
-  virtual PhysicalTag tag(int part) const = 0;
+  int count() const { return own_count() + 2; }
+  PhysicalTag tag(int part) const;
   /// Whether it is held and narrow neighbours were united with it, at edges that a mesh need
   /// not have.
   virtual bool hides_edges(int part) const = 0;
   /// Its point nearest to `w`.
-  virtual Vector3 nearest(int part, const Vector3& w) const = 0;
+  Vector3 nearest(int part, const Vector3& w) const;
   /// The closed surface of a sector, on the solid's own facets, or inscribed.
   virtual PartedSurface surface(Sector sector) const = 0;
 
@@ -31,6 +31,16 @@ class BoundaryParts {
   int part_at(PhysicalTag tag, const Vector3& w) const;
   /// A point near `w` that lies on all of these parts, which meet there.
   Vector3 on(const std::vector<int>& parts, const Vector3& w) const;
+
+ protected:
+  int plane_y() const { return own_count(); }
+  int plane_x() const { return own_count() + 1; }
+
+ private:
+  /// Without the planes.
+  virtual int own_count() const = 0;
+  virtual PhysicalTag own_tag(int part) const = 0;
+  virtual Vector3 own_nearest(int part, const Vector3& w) const = 0;
 };
 
 /// Of a geometry's solid, else of its meridian. Throws InvalidInput for an invalid geometry.

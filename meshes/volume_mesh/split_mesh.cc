@@ -309,7 +309,9 @@ void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
                radius = std::min(shape->pole_radius(), shape->largest_radius());
   const double usual =
       std::min(size_over_wall * wall, size_over_radius * radius) / options.radial_elements;
-  const Vector3 touch = options.touch.value_or(Vector3(0.0, 0.0, shape->pole()));
+  Vector3 touch = options.touch.value_or(Vector3(0.0, 0.0, shape->pole()));
+  if (options.sector != Sector::full) touch.y() = std::abs(touch.y());
+  if (options.sector == Sector::quarter) touch.x() = std::abs(touch.x());
   double share = 1.0;
   Vector3 last = touch;
   for (int beginning = 0; beginning < max_beginnings; ++beginning, share *= smaller_everywhere) {

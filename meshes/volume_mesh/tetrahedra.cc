@@ -9,7 +9,9 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_mesh_3.h>
 
+#include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -39,6 +41,9 @@ constexpr double sliver_angle = 18.0;
 constexpr long max_questions = 20'000;
 /// An edge of the body that turns by more than this has a corner there (cosine).
 constexpr double corner_cosine = 0.7;
+/// Corners of edges are not nearer to each other, over the extent of the body: elements as small as
+/// a step of round-off between two parts would be countless.
+constexpr double corners_apart = 1e-3;
 
 Point point_of(const Vector3& w) {
   return {w.x(), w.y(), w.z()};
@@ -63,6 +68,9 @@ class Borders {
   explicit Borders(const PartedSurface& surface) : surface_(surface) {
     for (const PartBorder& border : borders_of(surface)) add(border.ends[0], border.ends[1]);
     for (const auto& [a, b] : surface.creases) add(a, b);
+    Eigen::AlignedBox3d box;
+    for (const Vector3& w : surface.mesh.vertices) box.extend(w);
+    apart_ = corners_apart * box.diagonal().norm();
     for (const auto& [vertex, others] : next_) corners_[vertex] = turns(vertex, others);
   }
 
@@ -88,9 +96,22 @@ class Borders {
   /// Whether a line ends there.
   bool turns(int vertex, const std::set<int>& others) const {
     if (others.size() != 2) return true;
-    const Vector3 before = at(vertex) - at(*others.begin()),
-                  after = at(*others.rbegin()) - at(vertex);
-    return before.dot(after) < corner_cosine * before.norm() * after.norm();
+    const auto one = beside(vertex, *others.begin()), other = beside(vertex, *others.rbegin());
+    if (!one || !other) return false;
+    return -one->dot(*other) < corner_cosine * one->norm() * other->norm();
+  }
+
+  /// The way along a line to its first vertex that is not near; none where a corner lies before.
+  std::optional<Vector3> beside(int vertex, int next) const {
+    for (int before = vertex, here = next;;) {
+      const Vector3 way = at(here) - at(vertex);
+      if (way.norm() > apart_) return way;
+      const auto& others = next_.at(here);
+      const auto known = corners_.find(here);
+      if (here == vertex || others.size() != 2 || (known != corners_.end() && known->second))
+        return {};
+      before = std::exchange(here, *others.begin() == before ? *others.rbegin() : *others.begin());
+    }
   }
 
   /// Takes the edges it goes along.
@@ -107,6 +128,7 @@ class Borders {
   }
 
   const PartedSurface& surface_;
+  double apart_ = 0.0;  ///< least distance of corners [m]
   std::map<int, std::set<int>> next_;
   std::map<int, bool> corners_;  ///< where a line ends, before edges were taken
 };
@@ -179,7 +201,9 @@ Tetrahedra tetrahedra_within(const PartedSurface& surface, const SizeField& size
   // Without a limit in time, on which the result would hang.
   const Complex complex = CGAL::make_mesh_3<Complex>(
       domain, criteria, parameters::exude(parameters::sliver_bound = sliver_angle),
-      parameters::no_perturb());
+      parameters::no_perturb(),
+      // Else all of an edge of the body is divided as finely as its ends.
+      parameters::mesh_3_options(parameters::nonlinear_growth_of_balls = true));
   if (complex.number_of_cells_in_complex() == 0)
     throw NotConverged("the finger could not be filled with tetrahedra");
   return taken_from(complex);

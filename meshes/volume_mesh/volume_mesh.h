@@ -25,10 +25,10 @@ consteval auto fields_of(const MeshQuality*) {
 
 /// Writes the mesh in MSH 4.1 format with the physical volume `tip` and the physical surfaces
 /// `outer`, `bond`, `end` (of another shape what is free, if anything) and, for quarter and half,
-/// `symmetry_y` (the plane y = 0), for the quarter `symmetry_x` (x = 0), too. A solid has no
-/// symmetry: it is meshed as a whole, whatever the sector. Lengths in metres. Throws InvalidInput
-/// for a broken option, NotConverged when gmsh fails or when an element has a non-positive
-/// Jacobian.
+/// `symmetry_y` (the plane y = 0), for the quarter `symmetry_x` (x = 0), too. A solid must be
+/// `mirrored` in these planes, else the part at x, y >= 0 is no share of it. Lengths in metres.
+/// Throws InvalidInput for a broken option, NotConverged when gmsh fails or when an element has a
+/// non-positive Jacobian.
 MeshQuality write_tip_mesh(const Geometry& geometry, const TipMeshOptions& options,
                            const std::filesystem::path& file);
 

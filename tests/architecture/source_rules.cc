@@ -191,8 +191,8 @@ const std::vector<Place>& places() {
               "Ceres belongs into calibration's sources"),
         place("gmsh.*", "meshes/volume_mesh/.*\\.cc",
               "gmsh belongs into the sources of meshes/volume_mesh"),
-        place("CGAL/.*", "meshes/(shape/triangle_tree|volume_mesh/tetrahedra)\\.cc",
-              "CGAL belongs into meshes/shape/triangle_tree.cc and tetrahedra.cc"),
+        place("CGAL/.*", "meshes/(shape/triangle_tree|volume_mesh/(cut_surface|tetrahedra))\\.cc",
+              "CGAL belongs into meshes/shape/triangle_tree.cc, cut_surface.cc and tetrahedra.cc"),
         place(
             "meshes/volume_mesh/boundary_parts\\.h",
             "(fem_reference|meshes/volume_mesh)/.*|calibration/contact_laws/tetrahedral_body\\.cc",

@@ -32,9 +32,12 @@ using meshes::Vector3;
 
 namespace {
 
-Geometry block() {
-  return Geometry::of_solid(std::make_shared<meshes::Solid>(
-      fingers::box({-0.008, -0.01, 0.0}, {0.008, 0.01, 0.018}), meshes::Region{{{2, true, 1e-3}}}));
+/// With one corner pulled out [m]: beyond 1.3e-6 it is no mirror image of itself any more.
+Geometry block(double pulled = 0.0) {
+  meshes::TriangleMesh box = fingers::box({-0.008, -0.01, 0.0}, {0.008, 0.01, 0.018});
+  for (int axis = 0; axis < 2; ++axis) box.vertices.back()[axis] += pulled;
+  return Geometry::of_solid(
+      std::make_shared<meshes::Solid>(box, meshes::Region{{{2, true, 1e-3}}}));
 }
 
 std::unique_ptr<Body<3>> read(const SharedMesh& mesh, const Geometry& geometry, double tilt = 0.0) {
@@ -231,7 +234,7 @@ TEST(AnyShape, TiltedDomeOfAnyKindIsTheDome) {
 /// what the obstacle gives, and the work of the press is stored.
 TEST(AnyShape, SolidHandsOnAllThatPushesIt) {
   for (const Strain strain : {Strain::linear, Strain::finite}) {
-    ReferenceJob job = small_press_of(block());
+    ReferenceJob job = small_press_of(block(1e-5));
     job.strain = strain;
     job.refinement = 0.3;
     job.protocol.tilt = 0.15;
@@ -250,6 +253,29 @@ TEST(AnyShape, SolidHandsOnAllThatPushesIt) {
     EXPECT_GT(section.size(), 20u);
     for (const auto& edge : section) EXPECT_TRUE(std::isfinite(edge.deformed[0]));
   }
+}
+
+/// A half and a quarter with its mirror planes is the whole but for their coarse meshes.
+TEST(AnyShape, AMirroredSolidIsPressedByItsParts) {
+  ReferenceJob job = small_press_of(block());
+  const auto whole = [&] {
+    ReferenceJob other = job;
+    other.geometry = block(1e-5);
+    EXPECT_EQ(sector(other), Sector::full);
+    return pressed(other, 0.1);
+  };
+  EXPECT_EQ(sector(job), Sector::quarter);
+  const PressState quarter = pressed(job, 0.1), all = whole();
+  EXPECT_NEAR(quarter.normal_force / all.normal_force, 1.0, 0.02);
+  EXPECT_NEAR(quarter.contact_radius / all.contact_radius, 1.0, 0.05);
+  EXPECT_EQ(quarter.lateral_force_x, 0.0);
+  job.protocol.lateral = 3e-4;
+  EXPECT_EQ(sector(job), Sector::half);
+  const PressState half = pressed(job, 0.1), moved = whole();
+  EXPECT_NEAR(half.normal_force / moved.normal_force, 1.0, 0.02);
+  EXPECT_NEAR(half.lateral_force_x / moved.lateral_force_x, 1.0, 0.02);
+  EXPECT_NEAR(half.torque_y / moved.torque_y, 1.0, 0.05);
+  EXPECT_EQ(half.lateral_force_y, 0.0);
 }
 
 /// What is turned by 180 degrees about the axis is pushed aside the other way.

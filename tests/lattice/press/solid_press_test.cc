@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "lattice/press/press.h"
+#include "lattice/press/press_task.h"
 #include "lattice/press/static_press.h"
 #include "tests/fingers.h"
 #include "tests/lattice/presses.h"
@@ -48,6 +49,29 @@ TEST(SolidPress, TrianglesOfTheDomeAreTheDomeAtRest) {
       EXPECT_NEAR(found[i].lateral_force_y, 0.0, 1e-3 * expected[i].normal_force);
     }
   }
+}
+
+/// Facets are their own mirror images but for round-off, and so are points on them.
+TEST(SolidPress, OfAPartIsThatOfTheWhole) {
+  for (const double tilt : {0.0, 0.15}) {
+    PressSetup setup = press_of(fingers::solid_dome(50, 32), ModelKind::hookean, 8.0);
+    setup.protocol.tilt = tilt;
+    setup.protocol.contact = ContactMode::stick;
+    setup.protocol.samples = {setup.protocol.depth = 1e-3};
+    const auto part = lattice::run_static_press(setup),
+               whole = lattice::run_static_press(
+                   setup, build_cut_tip(setup.geometry, setup.rubber, setup.lattice, 1));
+    EXPECT_EQ(part.sectors, tilt == 0.0 ? 4 : 2);
+    EXPECT_EQ(whole.sectors, 1);
+    EXPECT_NEAR(part.volume / whole.volume, 1.0, 1e-9);
+    const auto &found = part.response.samples().back(), &all = whole.response.samples().back();
+    EXPECT_NEAR(found.normal_force / all.normal_force, 1.0, 1e-6);
+    EXPECT_NEAR(found.lateral_force_x, all.lateral_force_x, 1e-6 * all.normal_force);
+    EXPECT_NEAR(found.contact_radius / all.contact_radius, 1.0, 1e-6);
+  }
+  // What is no mirror image is whole.
+  PressSetup odd = press_of(fingers::solid_dome(51, 32), ModelKind::hookean, 8.0);
+  EXPECT_EQ(lattice::moving_sectors(odd), 2);
 }
 
 /// A pad in a cup up to its face, as triangles and as a profile, under a ball.

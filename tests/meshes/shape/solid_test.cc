@@ -231,6 +231,24 @@ TEST(SolidPoints, AddUpToAreaMomentAndNormal) {
   EXPECT_TRUE(surface_points(block, ProfileSurface::free, 1e-3).empty());
 }
 
+TEST(SolidPoints, AreTheirOwnMirrorImages) {
+  const Geometry block = Geometry::of_solid(
+      std::make_shared<Solid>(fingers::box({-0.0061, -0.0053, 0.0}, {0.0061, 0.0053, 0.02}), base));
+  for (const Geometry& body : {block, fingers::solid_dome(50, 32)}) {
+    const auto points = surface_points(body, contact, 1.1e-3);
+    for (const SurfacePoint& point : points)
+      for (const int axis : {0, 1}) {
+        Vector3 image = point.position;
+        image[axis] = -image[axis];
+        EXPECT_NE(image[axis], 0.0);
+        const auto found = std::ranges::min_element(
+            points, {}, [&](const SurfacePoint& other) { return (other.position - image).norm(); });
+        EXPECT_LT((found->position - image).norm(), 1e-9);
+        EXPECT_NEAR(found->area / point.area, 1.0, 1e-6);
+      }
+  }
+}
+
 TEST(Solid, FindsItsThinnestWall) {
   const auto hollow =
       joined(fingers::box(low, high),
@@ -243,6 +261,32 @@ TEST(Solid, FindsItsThinnestWall) {
   auto prism = fingers::revolved({{0.0, 0.0}, {1e-3, 0.0}, {1e-3, 1.0965e-3}, {0.0, 1.3965e-3}}, 4);
   for (Vector3& w : prism.vertices) w = Vector3(w.x() - 0.0806 * w.z(), 0.7188 * w.y(), w.z());
   EXPECT_GT(Solid(prism, {{{2, true, 1.0965e-5}}}).wall(), 1e-3);
+}
+
+TEST(Solid, KnowsThePlanesThatMirrorIt) {
+  TriangleMesh box = fingers::box({-0.006, -0.005, 0.0}, {0.006, 0.005, 0.02});
+  const Solid both(box, base);
+  EXPECT_TRUE(both.mirrored(0));
+  EXPECT_TRUE(both.mirrored(1));
+  // Its facets, too, where they are held.
+  const Solid one(box, {{{2, true, 0.001}, {0, false, 0.0}}});
+  EXPECT_FALSE(one.mirrored(0));
+  EXPECT_TRUE(one.mirrored(1));
+  const Solid none(fingers::box(low, high), base);
+  EXPECT_FALSE(none.mirrored(0));
+  EXPECT_FALSE(none.mirrored(1));
+  // A corner may be off by a ten thousandth of the largest radius.
+  const auto moved = [&](double share) {
+    TriangleMesh own = box;
+    own.vertices.front().x() -= share * both.largest_radius();
+    return Solid(own, base).mirrored(0);
+  };
+  EXPECT_TRUE(moved(0.9 * Solid::mirrored_within));
+  EXPECT_FALSE(moved(3.0 * Solid::mirrored_within));
+  // A polygon of 25 sides has one axis.
+  const Solid odd(fingers::revolved({{0.0, 0.0}, {0.01, 0.0}, {0.0, 0.02}}, 25), base);
+  EXPECT_FALSE(odd.mirrored(0));
+  EXPECT_TRUE(odd.mirrored(1));
 }
 
 TEST(Solid, MergesCornersAndKnowsItsContent) {

@@ -27,10 +27,15 @@ struct Finger {
 };
 
 std::vector<Finger> finger_list() {
-  const auto block = std::make_shared<Solid>(
-      fingers::box({-0.008, -0.01, 0.0}, {0.008, 0.01, 0.018}), Region{{{2, true, 1e-3}}});
+  const TriangleMesh box = fingers::box({-0.008, -0.01, 0.0}, {0.008, 0.01, 0.018});
+  const auto block = std::make_shared<Solid>(box, Region{{{2, true, 1e-3}}}),
+             glued = std::make_shared<Solid>(box, Region{{{2, true, 0.0}}});
   return {{"block", Geometry::of_solid(block), Sector::full, 1.0},
           {"dome of facets", fingers::solid_dome(48, 32), Sector::full, 1.0},
+          {"half a block", Geometry::of_solid(glued), Sector::half, 0.5},
+          {"quarter of a block", Geometry::of_solid(glued), Sector::quarter, 0.25},
+          {"quarter of a dome of facets", fingers::solid_dome(48, 32), Sector::quarter, 0.25},
+          {"quarter of one turned", fingers::solid_dome(50, 32), Sector::quarter, 0.25},
           {"dome", Geometry::of_profile(fingers::dome()), Sector::quarter, 0.25},
           {"half a dome", Geometry::of_profile(fingers::dome()), Sector::half, 0.5},
           {"finger", Geometry::of_profile(fingers::solid()), Sector::quarter, 0.25},
@@ -59,11 +64,10 @@ TEST(SplitMesh, FillsFingersOfEveryShape) {
       last = 0.75 * missing;
       EXPECT_EQ(inspect_tip_mesh(folder / "tip.msh").nodes, quality.nodes);
     }
-    const bool solid = finger.geometry.solid != nullptr;
     const std::string text = read_text(folder / "tip.msh");
     for (const std::string name : {"tip", "outer", "bond"})
       EXPECT_NE(text.find('"' + name + '"'), std::string::npos) << name;
-    EXPECT_EQ(text.find("\"symmetry_y\"") != std::string::npos, !solid);
+    EXPECT_EQ(text.find("\"symmetry_y\"") != std::string::npos, finger.sector != Sector::full);
     EXPECT_EQ(text.find("\"symmetry_x\"") != std::string::npos, finger.sector == Sector::quarter);
   }
 }
@@ -127,7 +131,7 @@ TEST(SplitMesh, RefusesEdgesVeryNearEachOther) {
   const auto solid = std::make_shared<Solid>(
       block, Region{{{2, true, 0.0}, {0, true, 0.0}}, {{2, true, 0.0}, {0, false, 2e-7}}});
   try {
-    write_tip_mesh(Geometry::of_solid(solid), TipMeshOptions{}.refined(0.5), folder / "tip.msh");
+    write({"slit", Geometry::of_solid(solid), Sector::full, 1.0}, 0.5, folder / "tip.msh");
     ADD_FAILURE() << "not refused";
   } catch (const NotConverged& error) {
     EXPECT_NE(std::string(error.what()).find("very near each other"), std::string::npos);
@@ -189,16 +193,17 @@ TEST(BoundaryParts, AreWhereTheyAreSaidToBe) {
       (dome->on({sleeve, end, plane}, {0.009, 1e-4, -0.013}) - Vector3(0.01, 0.0, -0.015)).norm(),
       1e-12);
 
-  // A block has six faces; what the bond cuts off from four of them is too narrow to be parts.
+  // A block has six faces and two mirror planes; what the bond cuts off from four of them is too
+  // narrow to be parts.
   const auto block = boundary_parts(finger_list()[0].geometry);
-  EXPECT_EQ(block->count(), 6);
+  EXPECT_EQ(block->count(), 8);
   EXPECT_EQ(block->part_at(PhysicalTag::end, {0.0, 0.0, 0.0}), -1);
   const int top = block->part_at(PhysicalTag::outer, {0.0, 0.0, 0.02}),
             side = block->part_at(PhysicalTag::outer, {0.02, 0.0, 0.01});
   EXPECT_LT((block->on({top, side}, {0.007, 0.002, 0.017}) - Vector3(0.008, 0.002, 0.018)).norm(),
             1e-12);
   // Facets of a dome are one part, and a sliver beside the bond belongs to its neighbour.
-  EXPECT_EQ(boundary_parts(fingers::solid_dome(48, 32))->count(), 3);
+  EXPECT_EQ(boundary_parts(fingers::solid_dome(48, 32))->count(), 5);
   EXPECT_THROW(boundary_parts({0.01, 0.02, 0.015, 0.03}), InvalidInput);
 }
 
@@ -208,7 +213,7 @@ TEST(BoundaryParts, OfAChamferAreThree) {
                         48),
       Region{{{2, true, 1e-3}}});
   const auto parts = boundary_parts(Geometry::of_solid(finger));
-  EXPECT_EQ(parts->count(), 4);  // with what is held
+  EXPECT_EQ(parts->count(), 6);  // with what is held and two planes
   const int chamfer = parts->part_at(PhysicalTag::outer, {0.0075, 0.0, 0.0175}),
             top = parts->part_at(PhysicalTag::outer, {0.0, 0.0, 0.02}),
             side = parts->part_at(PhysicalTag::outer, {0.01, 0.0, 0.01});
