@@ -111,7 +111,8 @@ int main(int argc, char** argv) {
            "...) points to what touches first.\n";
     return argc == 2 ? ok : bad_input;
   }
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // Elements are integrated by all the processors, or a process' share of them.
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv);
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   return carry_out(argv[1]);

@@ -5,6 +5,7 @@
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/grid/filtered_iterator.h>
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
@@ -161,6 +162,10 @@ void assemble(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& d
   dealii::FullMatrix<double> embedding(body.fine.element.n_dofs_per_cell(),
                                        body.coarse.element.n_dofs_per_cell());
   dealii::FETools::get_interpolation_matrix(body.coarse.element, body.fine.element, embedding);
+  // Nearly empty: each unknown is made of those of its own direction at the corners around it.
+  using Dense = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::SparseMatrix<double> sparse =
+      Eigen::Map<const Dense>(&embedding(0, 0), embedding.m(), embedding.n()).sparseView();
   dealii::FullMatrix<double> restricted(embedding.n(), embedding.n());
   std::vector<global_dof_index> fine(embedding.m()), coarse(embedding.n());
   start_sums(system);
@@ -172,13 +177,14 @@ void assemble(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& d
                      body.fine.constraints.distribute_local_to_global(matrix, force, fine,
                                                                       system.matrix, system.force);
                      if (!with_coarse) return;
-                     restricted.triple_product(matrix, embedding, embedding, true, false);
+                     Eigen::Map<Dense>(&restricted(0, 0), sparse.cols(), sparse.cols()) =
+                         sparse.transpose() *
+                         (Eigen::Map<const Dense>(&matrix(0, 0), matrix.m(), matrix.n()) * sparse);
                      const CellIterator<dim> other(&body.triangulation, cell->level(),
                                                    cell->index(), &body.coarse.dofs);
                      other->get_dof_indices(coarse);
                      body.coarse.constraints.distribute_local_to_global(restricted, coarse,
                                                                         system.coarse_matrix);
-                     restricted = 0.0;
                    });
   system.matrix.compress(dealii::VectorOperation::add);
   if (with_coarse) system.coarse_matrix.compress(dealii::VectorOperation::add);

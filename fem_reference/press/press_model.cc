@@ -63,7 +63,8 @@ template <int dim>
 std::unique_ptr<FieldSolver> TipPress<dim>::make_solver(const std::vector<long>& unknowns) const {
   if constexpr (dim == 3)
     if (solver_kind_ == LinearSolver::multigrid)
-      return make_multigrid_solver(*body_, unknowns, job_.solver_tolerance);
+      return make_multigrid_solver(*body_, unknowns, job_.solver_tolerance,
+                                   job_.strain == Strain::finite ? newton_forcing : 0.0);
   return job_.strain == Strain::finite ? make_eliminating_solver(*body_, unknowns)
                                        : make_condensed_solver(*body_, unknowns);
 }

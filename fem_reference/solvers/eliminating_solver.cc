@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "fem_reference/solvers/conjugate_gradients.h"
 #include "fem_reference/solvers/direct_solver.h"
 #include "fem_reference/solvers/field_solver.h"
 
@@ -13,8 +14,8 @@ namespace {
 
 using Eigen::Index;
 
-/// Of the forces: what a solution leaves out of balance, and of what is out of balance before.
-constexpr double accuracy = 1e-11, forcing = 1e-3;
+/// Of the forces: what a solution leaves out of balance.
+constexpr double accuracy = 1e-11;
 /// A solution may take this share of the time of a factorisation; a factor that is cheaper than
 /// `fewest` solutions is made anew at once.
 constexpr double worth_trying = 0.5, fewest = 4.0;
@@ -175,25 +176,18 @@ class EliminatingSolver : public FieldSolver {
   /// that was different. False, and nothing done, when a new factor costs less.
   bool improve(const std::vector<char>& held, const Eigen::VectorXd& right, double scale,
                int& iterations) {
-    Eigen::VectorXd u = displacement_, residual = out_of_balance(held, right), direction;
+    Eigen::VectorXd u = displacement_, residual = out_of_balance(held, right);
     if (enough_ == 0.0) {
-      enough_ = std::max(accuracy * scale, forcing * residual.norm());
+      enough_ = std::max(accuracy * scale, newton_forcing * residual.norm());
       noise_ = std::max(noise_, 10.0 * enough_ / scale);
     }
-    double before = 0.0;
-    for (int i = 0; residual.norm() > enough_; ++i) {
-      if (i > worth_trying * factor_->worth()) return false;
-      const Eigen::VectorXd better = factor_->solve(residual);
-      const double now = residual.dot(better);
-      direction = i == 0 ? better : Eigen::VectorXd(better + now / before * direction);
-      before = now;
-      const Eigen::VectorXd force = without(held, matrix_ * direction);
-      const double curvature = direction.dot(force);
-      if (!(curvature > 0.0)) return false;  // the factorisation will tell why
-      u += now / curvature * direction;
-      residual -= now / curvature * force;
-      ++iterations;
-    }
+    const CgOutcome outcome = conjugate_gradients(
+        u, residual, enough_, int(worth_trying * factor_->worth()) + 1,
+        [&](const Eigen::VectorXd& v) { return without(held, matrix_ * v); },
+        [&](const Eigen::VectorXd& v) { return factor_->solve(v); });
+    iterations += outcome.iterations;
+    // Where the matrix is indefinite the factorisation will tell why.
+    if (outcome.end != CgEnd::converged) return false;
     displacement_ = u;
     return true;
   }

@@ -44,14 +44,18 @@ template <int dim>
 std::unique_ptr<FieldSolver> make_eliminating_solver(const Body<dim>& body,
                                                      const std::vector<long>& contact_unknowns);
 
-/// Conjugate gradients to the relative residual `tolerance`, preconditioned by two levels: the
-/// unknowns themselves, smoothed by a Chebyshev polynomial, and linear elements on the same mesh,
-/// where Trilinos ML (smoothed aggregation with the six rigid-body modes as near-null space) does
-/// one V-cycle. Held unknowns are projected out of both; ML's hierarchy is built anew only when
-/// contact has changed. Starts from the previous solution. Solids only: a meridian is soon
-/// factored.
+/// Conjugate gradients to the relative residual `tolerance`, or until what was out of balance after
+/// `set_load` is down to the share `forcing`; preconditioned by two levels: the unknowns
+/// themselves, smoothed by a Chebyshev polynomial, and linear elements on the same mesh, where
+/// Trilinos ML (smoothed aggregation with the six rigid-body modes as near-null space) does one
+/// V-cycle. Held unknowns are projected out of both. The preconditioner stays while contact hardly
+/// changes and iterations are few, whatever becomes of the matrix. Starts from the previous
+/// solution. Solids only: a meridian is soon factored.
 std::unique_ptr<FieldSolver> make_multigrid_solver(const Body<3>& body,
                                                    const std::vector<long>& contact_unknowns,
-                                                   double tolerance);
+                                                   double tolerance, double forcing = 0.0);
+/// What of Newton's linear systems may be left, of what is out of balance: more digits than its
+/// next step has would be lost.
+inline constexpr double newton_forcing = 1e-3;
 
 }  // namespace fingertip::fem_reference::inline solvers

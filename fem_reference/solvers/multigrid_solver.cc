@@ -1,9 +1,9 @@
-#include <deal.II/lac/solver_cg.h>
-
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "fem_reference/solvers/conjugate_gradients.h"
 #include "fem_reference/solvers/field_solver.h"
 #include "fem_reference/solvers/two_level.h"
 #include "meshes/base/errors.h"
@@ -11,16 +11,20 @@
 namespace fingertip::fem_reference::inline solvers {
 namespace {
 
-constexpr unsigned max_iterations = 1000;
-/// The coarse hierarchy is built anew when more than this share of the held unknowns has changed.
-constexpr double worth_rebuilding = 0.02;
+constexpr int max_iterations = 1000;
+/// The preconditioner is built anew when more than this share of the held unknowns has changed, and
+/// when a solution takes so many times the iterations that its like took, and `usual` more.
+constexpr double worth_rebuilding = 0.02, patience = 1.5;
+constexpr int usual = 5;
 
 class MultigridSolver : public FieldSolver {
  public:
-  MultigridSolver(const Body<3>& body, const std::vector<long>& contact_unknowns, double tolerance)
+  MultigridSolver(const Body<3>& body, const std::vector<long>& contact_unknowns, double tolerance,
+                  double forcing)
       : body_(body),
         contact_unknowns_(contact_unknowns),
         tolerance_(tolerance),
+        forcing_(forcing),
         displacement_(body.fine.vector()),
         load_(displacement_) {
     for (const long unknown : contact_unknowns)
@@ -34,12 +38,23 @@ class MultigridSolver : public FieldSolver {
   }
 
   void set_matrix(const LinearSystem& system) override {
+    if (system_ != &system) {
+      preconditioner_ = std::make_unique<TwoLevelPreconditioner>(body_, system);
+      built_for_.clear();
+    }
     system_ = &system;
-    preconditioner_ = std::make_unique<TwoLevelPreconditioner>(body_, system);
-    built_for_.clear();
   }
 
-  void set_load(const Vector& load) override { load_ = load; }
+  void set_load(const Vector& load) override {
+    load_ = load;
+    enough_ = 0.0;
+    noise_ = 100.0 * tolerance_;
+  }
+
+  void forget() override {
+    built_for_.clear();
+    displacement_ = 0.0;
+  }
 
   ConstrainedSolution solve_constrained(const std::vector<char>& held,
                                         const Eigen::VectorXd& values,
@@ -58,9 +73,9 @@ class MultigridSolver : public FieldSolver {
     }
     for (std::size_t i = 0; i < constrained_.size(); ++i)
       if (constrained_[i]) displacement_.begin()[i] = load.begin()[i] = 0.0;
-    prepare(held);
+    if (has_changed(held)) build(held);
     ConstrainedSolution solution;
-    solution.cg_iterations = relax(load);
+    solution.cg_iterations = relax(load, held);
     Vector force = body_.fine.vector();
     system_->matrix.vmult(force, displacement_);
     force -= load_;
@@ -73,43 +88,68 @@ class MultigridSolver : public FieldSolver {
 
   Vector field() override { return displacement_; }
 
-  double noise() const override { return std::max(1e-10, 100 * tolerance_); }
+  double noise() const override { return std::max(1e-10, noise_); }
 
  private:
-  void prepare(const std::vector<char>& held) {
-    std::size_t changed = held.size();
-    if (built_for_.size() == held.size()) {
-      changed = 0;
-      for (std::size_t i = 0; i < held.size(); ++i) changed += held[i] != built_for_[i];
-    }
-    if (double(changed) <= worth_rebuilding * double(std::ranges::count(held, 1)) &&
-        built_for_.size() == held.size())
-      return;
-    preconditioner_->set_held(held_);
-    built_for_ = held;
+  bool has_changed(const std::vector<char>& held) const {
+    if (built_for_.size() != held.size()) return true;
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < held.size(); ++i) changed += held[i] != built_for_[i];
+    return double(changed) > worth_rebuilding * double(std::ranges::count(held, 1));
   }
 
-  /// Solves for the unknowns that are not held; returns the CG iterations.
-  int relax(const Vector& load) {
+  void build(const std::vector<char>& held) {
+    preconditioner_->set_held(held_);
+    built_for_ = held;
+    iterations_per_decade_ = 0.0;
+  }
+
+  /// Solves for the unknowns that are not held; returns the iterations.
+  int relax(const Vector& load, const std::vector<char>& held) {
     const ProjectedMatrix matrix(system_->matrix, held_);
-    Vector residual = load, correction = body_.fine.vector();
+    Vector residual = load;
     system_->matrix.vmult(residual, displacement_);
     const double scale = std::max(residual.l2_norm(), load.l2_norm());  // mostly the reactions
     residual.sadd(-1.0, 1.0, load);
     matrix.project(residual);
-    if (residual.l2_norm() <= tolerance_ * scale) return 0;
-    dealii::SolverControl control(max_iterations, tolerance_ * scale);
-    dealii::SolverCG<Vector> cg(control);
-    try {
-      cg.solve(matrix, correction, residual, *preconditioner_);
-    } catch (const dealii::SolverControl::NoConvergence&) {
-      throw meshes::NotConverged("conjugate gradients stopped at a residual of " +
-                                 std::to_string(control.last_value() / scale) +
-                                 " of the reactions after " + std::to_string(control.last_step()) +
-                                 " iterations");
+    const double first = residual.l2_norm();
+    if (enough_ == 0.0 || forcing_ == 0.0) enough_ = std::max(tolerance_ * scale, forcing_ * first);
+    if (scale > 0.0) noise_ = std::max(noise_, 10.0 * enough_ / scale);
+    const Vector start = displacement_;
+    int iterations = 0;
+    while (residual.l2_norm() > enough_) {
+      const double decades = std::log10(residual.l2_norm() / enough_);
+      const bool fresh = iterations_per_decade_ == 0.0;
+      const int most =
+          fresh ? max_iterations : usual + int(patience * iterations_per_decade_ * decades);
+      const CgOutcome outcome = conjugate_gradients(
+          displacement_, residual, enough_, most,
+          [&](const Vector& v) {
+            Vector force = v;
+            matrix.vmult(force, v);
+            return force;
+          },
+          [&](const Vector& v) {
+            Vector better = v;
+            preconditioner_->vmult(better, v);
+            return better;
+          });
+      iterations += outcome.iterations;
+      const bool hopeless = fresh && outcome.end == CgEnd::too_many;
+      if (hopeless || outcome.end == CgEnd::indefinite) displacement_ = start;
+      if (outcome.end == CgEnd::indefinite)
+        throw meshes::NotConverged(
+            "the stiffness matrix is not positive definite: a degenerate mesh, or a state that is "
+            "not stable");
+      if (hopeless)
+        throw meshes::NotConverged("conjugate gradients stopped at a residual of " +
+                                   std::to_string(residual.l2_norm() / scale) +
+                                   " of the reactions after " + std::to_string(iterations) +
+                                   " iterations");
+      if (fresh) iterations_per_decade_ = std::max(1, outcome.iterations) / decades;
+      if (outcome.end == CgEnd::too_many) build(held);
     }
-    displacement_ += correction;
-    return int(control.last_step());
+    return iterations;
   }
 
   Eigen::VectorXd gather(const Vector& v) const {
@@ -121,7 +161,9 @@ class MultigridSolver : public FieldSolver {
   std::vector<long> contact_unknowns_;
   std::vector<long> contact_local_;  ///< index among the owned unknowns, -1 for other processes'
   std::vector<char> constrained_, held_, built_for_;
-  double tolerance_;
+  double tolerance_, forcing_;
+  double enough_ = 0.0, noise_ = 0.0;   ///< out of balance since the last load [N], as a fraction
+  double iterations_per_decade_ = 0.0;  ///< with the preconditioner when it was new, 0: it is
   const LinearSystem* system_ = nullptr;
   std::unique_ptr<TwoLevelPreconditioner> preconditioner_;
   Vector displacement_, load_;
@@ -131,8 +173,8 @@ class MultigridSolver : public FieldSolver {
 
 std::unique_ptr<FieldSolver> make_multigrid_solver(const Body<3>& body,
                                                    const std::vector<long>& contact_unknowns,
-                                                   double tolerance) {
-  return std::make_unique<MultigridSolver>(body, contact_unknowns, tolerance);
+                                                   double tolerance, double forcing) {
+  return std::make_unique<MultigridSolver>(body, contact_unknowns, tolerance, forcing);
 }
 
 }  // namespace fingertip::fem_reference::inline solvers

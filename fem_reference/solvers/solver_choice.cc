@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,21 +11,23 @@
 namespace fingertip::fem_reference::inline solvers {
 namespace {
 
-/// Above this many unknowns the factor outgrows a desktop's memory (4.4 GB peak at 240 000), and
-/// multigrid takes over.
-constexpr double largest_condensed = 300000;
+/// Above this many unknowns the factor outgrows a desktop's memory (4.4 GB peak at 240 000; at large
+/// strain 3.9 GB at 275 000), and multigrid takes over, which is as fast there.
+constexpr double largest_condensed = 300000, largest_eliminated = 250000;
 
 /// Of 1000 unknowns [s]: assembled and factored by sparse Cholesky, which grows with the power
-/// below; by the iterations of the contact on a matrix that is factored; by multigrid.
+/// below; by the iterations of the contact on a matrix that is factored; by multigrid, and one of
+/// Newton's systems by it.
 constexpr double factor_time = 0.0072, factor_power = 1.33, contact_time = 0.001,
-                 multigrid_time = 0.18;
+                 multigrid_time = 0.18, newton_multigrid_time = 0.025;
 /// Factorisations, or solutions by multigrid, of one sample at large strain: in one step, and in
 /// the small ones that remember where nodes touch and how they slide.
 constexpr double newton_steps = 4.0, newton_steps_remembering = 25.0;
 /// Of the unknowns, from one mesh to the next where half of the error is refined: 1.05 to 1.4 for a
 /// solid, whose first mesh its shape makes fine; else 1.4 to 3.
 constexpr double usual_growth_of_solid = 1.2, usual_growth = 2.0;
-constexpr double base_memory = 2e8, memory_per_unknown = 1.75e4;  // [byte]
+constexpr double base_memory = 2e8, memory_per_unknown = 1.75e4,
+                 multigrid_memory_per_unknown = 4e3;  // [byte]
 
 }  // namespace
 
@@ -51,8 +54,8 @@ LinearSolver choose_solver(const ReferenceJob& job, double unknowns) {
                                 "the condensed solver runs on one process",
                                 "choose multigrid or automatic, or --ranks 1"});
   if (wanted != LinearSolver::automatic) return wanted;
-  return processes == 1 && unknowns <= largest_condensed ? LinearSolver::condensed
-                                                         : LinearSolver::multigrid;
+  const double most = job.strain == Strain::finite ? largest_eliminated : largest_condensed;
+  return processes == 1 && unknowns <= most ? LinearSolver::condensed : LinearSolver::multigrid;
 }
 
 SolutionCost solution_cost(const ReferenceJob& job, double unknowns, bool first_mesh) {
@@ -63,10 +66,12 @@ SolutionCost solution_cost(const ReferenceJob& job, double unknowns, bool first_
   const double steps = remembers ? newton_steps_remembering : newton_steps;
   const double thousands = 1e-3 * unknowns;
   const double factor = factor_time * std::pow(thousands, factor_power);
-  const double memory = base_memory + memory_per_unknown * unknowns;
   const bool finite = job.strain == Strain::finite;
   if (choose_solver(job, unknowns) == LinearSolver::multigrid)
-    return {contact_time * thousands, (finite ? steps : 1.0) * multigrid_time * thousands, memory};
+    return {contact_time * thousands,
+            (finite ? steps * newton_multigrid_time : multigrid_time) * thousands,
+            base_memory + multigrid_memory_per_unknown * unknowns};
+  const double memory = base_memory + memory_per_unknown * unknowns;
   if (finite) return {contact_time * thousands, steps * factor, memory};
   return {factor, contact_time * thousands, memory};
 }
@@ -123,12 +128,13 @@ Expected PressWork::expected(double wall_time) const {
   SolutionCost cost = this->cost();
   double work = double(samples_ - pressed_) * cost.sample;
   if (!assembled_) work += cost.mesh;
-  double unknowns = unknowns_;
+  double unknowns = unknowns_, memory = cost.memory;
   for (std::size_t number = number_; number < fewest_meshes_; ++number) {
     cost = solution_cost(job_, unknowns *= growth(), false);
     work += cost.mesh + double(samples_) * cost.sample;
+    memory = std::max(memory, cost.memory);
   }
-  return {(work_done_ > 0.0 ? wall_time / work_done_ : 1.0) * work, cost.memory};
+  return {(work_done_ > 0.0 ? wall_time / work_done_ : 1.0) * work, memory};
 }
 
 }  // namespace fingertip::fem_reference::inline solvers

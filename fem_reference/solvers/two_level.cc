@@ -4,6 +4,7 @@
 #include <ml_MultiLevelPreconditioner.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/parallel.h>
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
@@ -22,6 +23,8 @@ using dealii::types::global_dof_index;
 /// all for about the same time.
 constexpr unsigned smoother_degree = 4;
 constexpr double smoother_range = 20.0;
+/// Rows of a matrix that a thread multiplies at once.
+constexpr unsigned rows_at_once = 2000;
 /// Of the Lanczos method, for the largest eigenvalue.
 constexpr unsigned eigenvalue_rounds = 10;
 
@@ -95,18 +98,36 @@ void ProjectedMatrix::project(Vector& v) const {
     if (held_[i]) entries[i] = 0.0;
 }
 
+void multiply(const SparseMatrix& matrix, const Vector& v, Vector& result) {
+  const Epetra_CrsMatrix& crs = matrix.trilinos_matrix();
+  int *offsets = nullptr, *columns = nullptr;
+  double* values = nullptr;
+  if (crs.Importer() != nullptr || crs.ExtractCrsDataPointers(offsets, columns, values) != 0) {
+    matrix.vmult(result, v);  // shared among processes
+    return;
+  }
+  const double* from = v.begin();
+  double* to = result.begin();
+  dealii::parallel::apply_to_subranges(
+      0, crs.NumMyRows(),
+      [&](int begin, int end) {
+        for (int row = begin; row < end; ++row) {
+          double sum = 0.0;
+          for (int e = offsets[row]; e < offsets[row + 1]; ++e) sum += values[e] * from[columns[e]];
+          to[row] = sum;
+        }
+      },
+      rows_at_once);
+}
+
 void ProjectedMatrix::vmult(Vector& result, const Vector& v) const {
-  matrix_.vmult(result, v);
+  multiply(matrix_, v, result);
   project(result);
 }
 
 TwoLevelPreconditioner::TwoLevelPreconditioner(const Body<3>& body, const LinearSystem& system)
     : body_(body), system_(system) {
   build_prolongation();
-  Vector inverse = body.fine.vector();
-  for (const auto i : body.fine.owned) inverse[i] = 1.0 / system.matrix.diag_element(i);
-  inverse.compress(dealii::VectorOperation::insert);
-  jacobi_ = std::make_shared<Jacobi>(Jacobi{inverse});
   coarse_matrix_.reinit(body.coarse.matrix());
   collect_rigid_modes();
 }
@@ -154,6 +175,10 @@ void TwoLevelPreconditioner::build_prolongation() {
 
 void TwoLevelPreconditioner::set_held(const std::vector<char>& held) {
   smoother_.clear();
+  Vector inverse = body_.fine.vector();
+  for (const auto i : body_.fine.owned) inverse[i] = 1.0 / system_.matrix.diag_element(i);
+  inverse.compress(dealii::VectorOperation::insert);
+  jacobi_ = std::make_shared<Jacobi>(Jacobi{inverse});
   projected_ = std::make_unique<ProjectedMatrix>(system_.matrix, held);
   decltype(smoother_)::AdditionalData chebyshev(smoother_degree, smoother_range, eigenvalue_rounds);
   chebyshev.preconditioner = jacobi_;

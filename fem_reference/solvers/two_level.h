@@ -13,6 +13,9 @@
 
 namespace fingertip::fem_reference::inline solvers {
 
+/// A v; on one process by all its threads, with the same bits whatever their number.
+void multiply(const SparseMatrix& matrix, const Vector& v, Vector& result);
+
 /// P A P for an operator A that leaves its argument alone; P zeroes the held unknowns.
 class ProjectedMatrix : public dealii::Subscriptor {
  public:
@@ -34,9 +37,9 @@ class TwoLevelPreconditioner {
   /// The system must outlive the preconditioner.
   TwoLevelPreconditioner(const Body<3>& body, const LinearSystem& system);
 
-  /// Chooses the held unknowns, one flag per owned unknown of the fine space, and builds the
-  /// coarse hierarchy for them. They are kept by
-  /// reference and may change a little afterwards: the coarse level then lags behind.
+  /// Takes the system as it is now and these held unknowns, one flag per owned unknown of the fine
+  /// space, and builds smoother and hierarchy for them. Both are kept by reference and may change a
+  /// little afterwards: diagonal, spectrum and coarse level then lag behind.
   void set_held(const std::vector<char>& held);
   void vmult(Vector& result, const Vector& residual) const;
 

@@ -1,11 +1,14 @@
 #include "fem_reference/solvers/field_solver.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -155,14 +158,15 @@ TEST_P(FieldSolverTest, CondensedAgreesWithMultigrid) {
   }
 }
 
-/// One that keeps its factor while matrix and contact change, beside one that never saw another.
-TEST_P(FieldSolverTest, EliminatingAgreesWithAFreshOne) {
-  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) GTEST_SKIP();
-  const auto kept = make_eliminating_solver(*problem.body, problem.contact.unknowns);
+/// One that keeps what it knows while matrix and contact change, beside one that never saw another;
+/// made by `make`, to be exact or to leave what Newton's method may.
+void expect_to_keep_up(const Problem& problem,
+                       const std::function<std::unique_ptr<FieldSolver>(bool exact)>& make) {
+  const auto kept = make(false);
   double stiffness = 1.0;
-  int kept_its_factor = 0;
+  int corrections = 0;
+  LinearSystem stiffer(*problem.body, true);
   for (const auto& [radius, stick] : stages) {
-    LinearSystem stiffer(*problem.body, false);
     meshes::Rubber rubber;
     rubber.shear_modulus *= stiffness;  // at the same E: not a multiple of the matrix before
     HookeKernel<3> kernel(rubber, Volumetric::mean_dilatation);
@@ -170,7 +174,7 @@ TEST_P(FieldSolverTest, EliminatingAgreesWithAFreshOne) {
     stiffness *= 0.985;
     for (const double wider : {0.0, 4e-4, 8e-4}) {  // the contact grows on the way
       const Request wanted = request(problem.contact, radius + wider, stick);
-      const auto fresh = make_eliminating_solver(*problem.body, problem.contact.unknowns);
+      const auto fresh = make(true);
       fresh->set_matrix(stiffer);
       fresh->set_load(problem.load);
       const ConstrainedSolution anew =
@@ -181,7 +185,7 @@ TEST_P(FieldSolverTest, EliminatingAgreesWithAFreshOne) {
         kept->set_load(problem.load);
         const ConstrainedSolution corrected =
             kept->solve_constrained(wanted.held, wanted.values, wanted.loads);
-        if (round == 0 && corrected.cg_iterations > 0) ++kept_its_factor;
+        if (round == 0 && corrected.cg_iterations > 0) ++corrections;
         const double difference = (anew.displacement - corrected.displacement).norm();
         EXPECT_LT(difference, std::max(0.05 * before, 1e-9 * anew.displacement.norm()));
         before = difference;
@@ -191,11 +195,62 @@ TEST_P(FieldSolverTest, EliminatingAgreesWithAFreshOne) {
       }
     }
   }
-  EXPECT_GT(kept_its_factor, 0);
+  EXPECT_GT(corrections, 0);
+}
+
+TEST_P(FieldSolverTest, EliminatingAgreesWithAFreshOne) {
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) GTEST_SKIP();
+  expect_to_keep_up(problem, [&](bool) {
+    return make_eliminating_solver(*problem.body, problem.contact.unknowns);
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(DegreesAndHangingNodes, FieldSolverTest,
                          ::testing::Combine(::testing::Values(1, 2, 3), ::testing::Bool()));
+
+TEST(MultigridSolver, KeepsUpWithAChangingMatrix) {
+  const Problem problem(2, true);
+  expect_to_keep_up(problem, [&](bool exact) {
+    return make_multigrid_solver(*problem.body, problem.contact.unknowns, 1e-12,
+                                 exact ? 0.0 : fem_reference::newton_forcing);
+  });
+}
+
+TEST(MultigridSolver, HasTheSameBitsWithAnyNumberOfThreads) {
+  const unsigned usual = dealii::MultithreadInfo::n_threads();
+  const auto field = [](unsigned threads) {
+    dealii::MultithreadInfo::set_thread_limit(threads);
+    const Problem problem(2, true);
+    const auto solver = make_multigrid_solver(*problem.body, problem.contact.unknowns, 1e-10);
+    solver->set_matrix(*problem.system);
+    solver->set_load(problem.load);
+    const Request wanted = request(problem.contact, 2e-3, true);
+    solver->solve_constrained(wanted.held, wanted.values, wanted.loads);
+    return solver->field();
+  };
+  const Vector one = field(1), three = field(3);
+  dealii::MultithreadInfo::set_thread_limit(usual);
+  EXPECT_TRUE(std::equal(one.begin(), one.end(), three.begin()));
+}
+
+TEST(MultigridSolver, RefusesAMatrixThatIsNotPositiveDefinite) {
+  const Problem problem(2, false);
+  LinearSystem system(*problem.body, true);
+  system.matrix.copy_from(problem.system->matrix);
+  system.coarse_matrix.copy_from(problem.system->coarse_matrix);
+  const auto solver = make_multigrid_solver(*problem.body, problem.contact.unknowns, 1e-10, 1e-3);
+  solver->set_matrix(system);
+  const Request wanted = request(problem.contact, 2e-3, true);
+  solver->solve_constrained(wanted.held, wanted.values, wanted.loads);
+  const Vector before = solver->field();
+  system.matrix *= -1.0;  // its preconditioner is that of the matrix before
+  solver->set_load(problem.load);
+  EXPECT_THROW(solver->solve_constrained(wanted.held, wanted.values, wanted.loads),
+               meshes::NotConverged);
+  Vector after = solver->field();
+  after -= before;
+  EXPECT_EQ(after.linfty_norm(), 0.0);
+}
 
 TEST(CondensedSolver, RefusesAMatrixThatIsNotPositiveDefinite) {
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) GTEST_SKIP();
