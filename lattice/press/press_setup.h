@@ -38,7 +38,8 @@ struct PressSetup {
   std::optional<double> time_step;  ///< largest one [s]; the largest safe one when absent
   double tolerance = 1e-6;          ///< of runge_kutta, > 0 (integrators/runge_kutta.h)
   double energy_bound = 1e-7;       ///< of energy_controlled, > 0 (integrators/energy_stepper.h)
-  int threads = 0;                  ///< 0: fastest_threads. The result does not depend on it.
+  int threads = 0;                  ///< 0: fastest_threads, at rest one. The result does not depend
+                                    ///< on it.
   bool symmetry = true;  ///< computes one of the parts that are mirror images of each other, where
                          ///< a moving press has such (moving_sectors)
 

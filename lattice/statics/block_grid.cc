@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace fingertip::lattice::inline statics {
 
@@ -14,6 +15,9 @@ namespace {
 /// apart, which would leave the matrix singular.
 constexpr double coarse_excess = 1e-7;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// Rows worth another thread.
+constexpr std::size_t rows_at_once = 100;
 
 /// Of the coarser grid, at this place or next below it.
 GridPlace coarse_place(const GridPlace& place) {
@@ -87,9 +91,21 @@ Four pull(const BlockGrid& grid, std::uint32_t from, std::uint32_t to) {
   return sum;
 }
 
+/// Rows that share no block, by all of a team.
+template <typename Visit>
+void for_rows(std::uint32_t begin, std::uint32_t end, Team& team, const Visit& visit) {
+  team.split(end - begin, rows_at_once, [&](std::size_t from, std::size_t to) {
+    for (std::size_t p = from; p < to; ++p) visit(std::uint32_t(begin + p));
+  });
+}
+
 }  // namespace
 
 void size_fields(BlockGrid& grid) {
+  for (std::uint32_t p = 0; p < grid.rows(); ++p)
+    ++grid.begins[std::size_t(parity(grid.places[p])) + 1];
+  std::partial_sum(grid.begins.begin(), grid.begins.end(), grid.begins.begin());
+  grid.share.resize(grid.rows());
   grid.values.assign(grid.column.size(), Matrix3d::Zero());
   grid.blocks.resize(grid.column.size());
   grid.inverse.resize(grid.rows());
@@ -177,36 +193,40 @@ bool prepare_sweeps(BlockGrid& grid) {
   return true;
 }
 
-void sweep_forward(BlockGrid& grid) {
-  for (std::size_t p = 0; p < grid.rows(); ++p)
-    grid.solution[p] =
-        grid.inverse.product(p, grid.load[p] - pull(grid, grid.first[p] + 1, grid.later[p]));
+void sweep_forward(BlockGrid& grid, Team& team) {
+  for (std::size_t own = 0; own < 8; ++own)
+    for_rows(grid.begins[own], grid.begins[own + 1], team, [&](std::uint32_t p) {
+      grid.solution[p] =
+          grid.inverse.product(p, grid.load[p] - pull(grid, grid.first[p] + 1, grid.later[p]));
+    });
 }
 
-void restrict_residual(const BlockGrid& grid, BlockGrid& coarse) {
+void restrict_residual(BlockGrid& grid, BlockGrid& coarse, Team& team) {
+  for_rows(0, std::uint32_t(grid.rows()), team, [&](std::uint32_t p) {
+    grid.share[p] = grid.free[p] * pull(grid, grid.later[p], grid.first[p + 1]) /
+                    -float(grid.parents(p).size());
+  });
   std::ranges::fill(coarse.load, Four::Zero());
-  for (std::size_t p = 0; p < grid.rows(); ++p) {
-    const auto parents = grid.parents(p);
-    const Four share =
-        grid.free[p] * pull(grid, grid.later[p], grid.first[p + 1]) / -float(parents.size());
-    for (const std::uint32_t to : parents) coarse.load[to] += share;
-  }
+  for (std::size_t p = 0; p < grid.rows(); ++p)
+    for (const std::uint32_t to : grid.parents(p)) coarse.load[to] += grid.share[p];
   for (std::size_t p = 0; p < coarse.rows(); ++p) coarse.load[p] *= coarse.free[p];
 }
 
-void add_interpolated(const BlockGrid& coarse, BlockGrid& grid) {
-  for (std::size_t p = 0; p < grid.rows(); ++p) {
+void add_interpolated(const BlockGrid& coarse, BlockGrid& grid, Team& team) {
+  for_rows(0, std::uint32_t(grid.rows()), team, [&](std::uint32_t p) {
     const auto parents = grid.parents(p);
     Four sum = Four::Zero();
     for (const std::uint32_t from : parents) sum += coarse.solution[from];
     grid.solution[p] += grid.free[p] * sum / float(parents.size());
-  }
+  });
 }
 
-void sweep_backward(BlockGrid& grid) {
-  for (std::size_t p = grid.rows(); p-- > 0;)
-    grid.solution[p] =
-        grid.inverse.product(p, grid.load[p] - pull(grid, grid.first[p] + 1, grid.first[p + 1]));
+void sweep_backward(BlockGrid& grid, Team& team) {
+  for (std::size_t own = 8; own-- > 0;)
+    for_rows(grid.begins[own], grid.begins[own + 1], team, [&](std::uint32_t p) {
+      grid.solution[p] =
+          grid.inverse.product(p, grid.load[p] - pull(grid, grid.first[p] + 1, grid.first[p + 1]));
+    });
 }
 
 }  // namespace fingertip::lattice::inline statics

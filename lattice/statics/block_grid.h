@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lattice/statics/lattice_body.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline statics {
 
@@ -55,6 +56,9 @@ struct BlockGrid {
   /// Per row and rank: the block; on coarser grids.
   std::vector<std::array<std::uint32_t, ranks>> block_at;
   std::vector<Four> load, solution, free;  ///< free: 0 where a component is held, else 1
+  std::vector<Four> share;                 ///< of the residual, for each parent
+  /// Before which row a parity's rows begin.
+  std::array<std::uint32_t, 9> begins{};
 
   std::size_t rows() const { return places.size(); }
   std::span<const std::uint32_t> parents(std::size_t row) const {
@@ -73,10 +77,10 @@ void restrict_matrix(const BlockGrid& fine, BlockGrid& coarse);
 /// definite.
 bool prepare_sweeps(BlockGrid& grid);
 /// Gauss-Seidel's sweep from a solution of 0: later rows have no share yet.
-void sweep_forward(BlockGrid& grid);
+void sweep_forward(BlockGrid& grid, Team& team);
 /// The residual after sweep_forward, which is what later rows have.
-void restrict_residual(const BlockGrid& grid, BlockGrid& coarse);
-void add_interpolated(const BlockGrid& coarse, BlockGrid& grid);
-void sweep_backward(BlockGrid& grid);
+void restrict_residual(BlockGrid& grid, BlockGrid& coarse, Team& team);
+void add_interpolated(const BlockGrid& coarse, BlockGrid& grid, Team& team);
+void sweep_backward(BlockGrid& grid, Team& team);
 
 }  // namespace fingertip::lattice::inline statics

@@ -21,7 +21,7 @@ constexpr std::size_t most_factorised = 500;
 }  // namespace
 
 struct BlockMultigrid::Implementation {
-  explicit Implementation(const ElasticSystem& system);
+  Implementation(const ElasticSystem& system, const Team& own_team);
   void take_pattern(const Tangent& pattern);
   void take_values(const Tangent& matrix, double shift);
   Tangent lower_triangle() const;
@@ -29,6 +29,7 @@ struct BlockMultigrid::Implementation {
   void cycle(std::size_t level);
   void solve_coarsest();
 
+  Team team;
   std::vector<BlockGrid> grids;       ///< none if the matrix itself is factorised
   std::vector<std::uint32_t> row_of;  ///< of a particle on the finest grid
   /// Of the tangent's blocks below the diagonal, in its order: where it stands, and transposed.
@@ -36,7 +37,8 @@ struct BlockMultigrid::Implementation {
   Eigen::CholmodSupernodalLLT<Tangent, Eigen::Lower> factor;
 };
 
-BlockMultigrid::Implementation::Implementation(const ElasticSystem& system) {
+BlockMultigrid::Implementation::Implementation(const ElasticSystem& system, const Team& own_team)
+    : team(own_team) {
   const LatticeBody& body = system.body();
   const Tangent pattern = system.empty_tangent();
   factor.cholmod().print = 0;
@@ -141,11 +143,11 @@ bool BlockMultigrid::Implementation::factorise(const Tangent& matrix, double shi
 void BlockMultigrid::Implementation::cycle(std::size_t level) {
   if (level + 1 == grids.size()) return solve_coarsest();
   BlockGrid &grid = grids[level], &coarse = grids[level + 1];
-  sweep_forward(grid);
-  restrict_residual(grid, coarse);
+  sweep_forward(grid, team);
+  restrict_residual(grid, coarse, team);
   cycle(level + 1);
-  add_interpolated(coarse, grid);
-  sweep_backward(grid);
+  add_interpolated(coarse, grid, team);
+  sweep_backward(grid, team);
 }
 
 void BlockMultigrid::Implementation::solve_coarsest() {
@@ -158,8 +160,8 @@ void BlockMultigrid::Implementation::solve_coarsest() {
     grid.solution[p].head<3>() = solution.segment<3>(3 * Eigen::Index(p)).cast<float>().array();
 }
 
-BlockMultigrid::BlockMultigrid(const ElasticSystem& system)
-    : implementation_(std::make_unique<Implementation>(system)) {}
+BlockMultigrid::BlockMultigrid(const ElasticSystem& system, const Team& team)
+    : implementation_(std::make_unique<Implementation>(system, team)) {}
 
 BlockMultigrid::~BlockMultigrid() = default;
 

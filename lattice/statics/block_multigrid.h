@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "lattice/statics/elastic_system.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline statics {
 
@@ -14,13 +15,14 @@ namespace fingertip::lattice::inline statics {
 /// Coarser grids keep the even points of finer ones, interpolate trilinearly and have Galerkin's
 /// matrix; so whatever the energy has, ties and nearly incompressible cells included, they have,
 /// too. Sweeps are Gauss-Seidel's over the 3 x 3 blocks of the particles, forward before and
-/// backward after the coarser grid, in the order of the places' eight parities. They are done in
-/// single precision: what is lost there, conjugate gradients correct. The coarsest matrix, and that
+/// backward after the coarser grid, in the order of the places' eight parities, so that a team's
+/// threads share them with the same bits for any number. They are done in single precision: what is
+/// lost there, conjugate gradients correct. The coarsest matrix, and that
 /// of a body without places, is factorised (supernodal CHOLMOD).
 class BlockMultigrid {
  public:
   /// Keeps a reference to `system`. Throws NotConverged when there is too little memory.
-  explicit BlockMultigrid(const ElasticSystem& system);
+  explicit BlockMultigrid(const ElasticSystem& system, const Team& team = Team(1));
   ~BlockMultigrid();
 
   /// Prepares for matrix + shift x 1, the matrix with the system's pattern and 1 on the diagonal of

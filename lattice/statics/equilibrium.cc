@@ -34,7 +34,7 @@ constexpr double sufficient_decrease = 1e-4;
 }  // namespace
 
 struct EquilibriumSolver::Implementation {
-  explicit Implementation(const ElasticSystem& elastic_system);
+  Implementation(const ElasticSystem& elastic_system, const Team& team);
 
   double evaluate(const StaticContact& contact, const VectorXd& displacement, Tangent* tangent);
   double energy(const StaticContact& contact, const VectorXd& displacement) const {
@@ -65,8 +65,9 @@ struct EquilibriumSolver::Implementation {
   Effort effort;
 };
 
-EquilibriumSolver::Implementation::Implementation(const ElasticSystem& elastic_system)
-    : system(elastic_system), tangent(system.empty_tangent()), preconditioner(system) {
+EquilibriumSolver::Implementation::Implementation(const ElasticSystem& elastic_system,
+                                                  const Team& team)
+    : system(elastic_system), tangent(system.empty_tangent()), preconditioner(system, team) {
   for (const auto& rest : system.body().rest) extent = std::max(extent, rest.cwiseAbs().maxCoeff());
   const auto& fixed = system.body().fixed;
   if (fixed.empty()) return;
@@ -212,8 +213,8 @@ bool EquilibriumSolver::Implementation::iterate(const MatrixXd& forces, MatrixXd
   return false;
 }
 
-EquilibriumSolver::EquilibriumSolver(const ElasticSystem& system)
-    : implementation_(std::make_unique<Implementation>(system)) {}
+EquilibriumSolver::EquilibriumSolver(const ElasticSystem& system, const Team& team)
+    : implementation_(std::make_unique<Implementation>(system, team)) {}
 
 EquilibriumSolver::~EquilibriumSolver() = default;
 

@@ -27,7 +27,8 @@ struct Effort {
 /// The cost of a step is linear in the unknowns.
 class EquilibriumSolver {
  public:
-  explicit EquilibriumSolver(const ElasticSystem& system);  // keeps a reference
+  /// Keeps a reference to `system`. The result does not depend on the number of threads.
+  explicit EquilibriumSolver(const ElasticSystem& system, const Team& team = Team(1));
   ~EquilibriumSolver();
 
   /// Improves `displacement` until |force| <= `tolerance` x the sum of the contact forces'

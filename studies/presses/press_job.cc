@@ -131,8 +131,8 @@ void write_contact(const lattice::StaticOutcome& outcome, const fs::path& folder
   meshes::write_rows(rows, folder / "contact.csv");
 }
 
-void run_static_job(const lattice::PressSetup& setup, const fs::path& folder,
-                    const JobContext& context) {
+void run_static_job(lattice::PressSetup setup, const fs::path& folder, const JobContext& context) {
+  setup.threads = context.threads;
   Journal<lattice::StaticOutcome> journal(
       folder, context, "pressing",
       [&](const lattice::StaticOutcome& outcome, const std::string& status) {

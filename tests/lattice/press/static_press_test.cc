@@ -52,6 +52,20 @@ void expect_same(const PressSample& a, const PressSample& b, double share, doubl
 
 }  // namespace
 
+TEST(StaticPress, HasTheSameBitsWithAnyNumberOfThreads) {
+  PressSetup setup = presses::setup_of({.model = lattice::ModelKind::hookean,
+                                        .per_radius = 12,
+                                        .contact = meshes::ContactMode::stick,
+                                        .samples = {1e-3}});
+  const auto force = [&](int threads) {
+    setup.threads = threads;
+    return lattice::run_static_press(setup).response.samples().back().normal_force;
+  };
+  const double one = force(1);
+  EXPECT_GT(one, 0.0);
+  EXPECT_EQ(force(3), one);
+}
+
 /// Against axisymmetric quadratic finite elements, accurate to 0.03 %
 /// (tests/fem_reference/data/press_linear_frictionless.csv).
 TEST(StaticPress, AgreesWithTheContinuum) {
