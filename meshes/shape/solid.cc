@@ -21,6 +21,9 @@ using Triangle = std::array<Vector3, 3>;
 
 /// A length over the extent that is round-off: vertices so near a plane lie in it.
 constexpr double in_plane = 1e-9;
+/// Facets of a smooth surface turn by less than this [rad]; their chords may be this high, over the
+/// largest radius, for a surface to be its own mirror image as far as they tell.
+constexpr double smooth_turn = 0.3, highest_chord = 5e-4;
 /// The cap whose area tells the curvature at the pole, over the height of the pole above the bond.
 constexpr double cap_height = 0.05;
 
@@ -181,18 +184,40 @@ bool Solid::mirrored(int axis) const {
 }
 
 bool Solid::compare_with_image(int axis) const {
-  const auto has_image = [&](Vector3 w, int group) {
+  // How high a smooth surface stands above a facet: e theta / 8 of chords e that turn by theta.
+  const auto chord_height = [&](std::size_t t) {
+    const Vector3 own = mesh_.area_vector(t);
+    double height = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vector3 other = mesh_.area_vector(neighbours_[t][c]);
+      const double turn = std::atan2(own.cross(other).norm(), own.dot(other));
+      const double edge = (mesh_.corner(t, (c + 1) % 3) - mesh_.corner(t, c)).norm();
+      if (turn < smooth_turn && edge > 0.0)
+        height = std::max(height, 2.0 * own.norm() / edge * turn / 8.0);
+    }
+    return std::min(height, highest_chord * radius_);
+  };
+  // Also of what it shares an edge with: rims of flat faces are chords, too.
+  const auto height_around = [&](std::size_t t) {
+    double height = chord_height(t);
+    for (const std::size_t other : neighbours_[t]) height = std::max(height, chord_height(other));
+    return height;
+  };
+  const auto has_image = [&](Vector3 w, std::size_t t) {
     w[axis] = -w[axis];
-    return tree_->nearest(w, group)->distance <= mirrored_within * radius_;
+    const auto image = tree_->nearest(w, groups_[t]);
+    const double close = mirrored_within * radius_;
+    return image->distance <= close || image->distance <= close + height_around(t) ||
+           image->distance <= close + height_around(image->triangle);
   };
   std::array<std::vector<bool>, 2> known;  // corners of facets that may touch, and that are held
   for (auto& corners : known) corners.resize(mesh_.vertices.size());
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (!has_image(mesh_.centroid(t), groups_[t])) return false;
+    if (!has_image(mesh_.centroid(t), t)) return false;
     auto& own = known[std::size_t(groups_[t])];
     for (const int corner : mesh_.triangles[t]) {
       if (own[std::size_t(corner)]) continue;
-      if (!has_image(mesh_.vertices[std::size_t(corner)], groups_[t])) return false;
+      if (!has_image(mesh_.vertices[std::size_t(corner)], t)) return false;
       own[std::size_t(corner)] = true;
     }
   }

@@ -41,8 +41,8 @@ class Solid final : public Shape {
   const std::string& content() const { return content_; }
   bool contains(const Vector3& w) const { return tree_->contains(w); }
   /// Whether it is its own mirror image in the plane through the origin across an axis (0: x, 1:
-  /// y): corners and middles of facets have their image within mirrored_within of its largest
-  /// radius, held where they are.
+  /// y): corners and middles of facets have their image, held where they are, within
+  /// mirrored_within of its largest radius and the height of chords there.
   bool mirrored(int axis) const;
   static constexpr double mirrored_within = 1e-4;
   /// surface_points() of one of its surfaces; areas and their first moments add up exactly. Of a

@@ -283,6 +283,9 @@ TEST(Solid, KnowsThePlanesThatMirrorIt) {
   };
   EXPECT_TRUE(moved(0.9 * Solid::mirrored_within));
   EXPECT_FALSE(moved(3.0 * Solid::mirrored_within));
+  // Facets of a round body need not lie as their images do, if they are as fine as of a CAD file.
+  const Solid fine(fingers::revolved({{0.0, 0.0}, {0.01, 0.0}, {0.0, 0.02}}, 161), base);
+  EXPECT_TRUE(fine.mirrored(0));
   // A polygon of 25 sides has one axis.
   const Solid odd(fingers::revolved({{0.0, 0.0}, {0.01, 0.0}, {0.0, 0.02}}, 25), base);
   EXPECT_FALSE(odd.mirrored(0));

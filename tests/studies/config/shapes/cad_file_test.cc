@@ -9,8 +9,10 @@
 #include <functional>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "lattice/press/static_press.h"
+#include "meshes/shape/solid.h"
 #include "meshes/volume_mesh/volume_mesh.h"
 #include "studies/config/loader.h"
 #include "studies/config/shapes/solid_file.h"
@@ -168,14 +170,17 @@ TEST(CadFile, SharpAndRoundEdgesAreFilledWithHexahedra) {
   meshes::write_cad_surface(folder / "pad.step", folder / "pad.stl");
   const Geometry pad =
       Geometry::of_solid(studies::read_solid({folder / "pad.stl", "mm", "z < 2 mm"}), 0.0);
-  for (const double refinement : {0.4, 0.5, 0.6}) {
-    meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(refinement);
-    options.sector = meshes::Sector::full;
-    const meshes::MeshQuality quality = meshes::write_tip_mesh(pad, options, folder / "pad.msh");
-    EXPECT_GT(quality.min_scaled_jacobian, 0.04) << refinement;
-    // Straight sides.
-    EXPECT_NEAR(quality.volume / pad.tip_volume(), 1.0, 0.04) << refinement;
-  }
+  for (const int axis : {0, 1}) EXPECT_TRUE(pad.solid->mirrored(axis));
+  for (const auto& [sector, parts] :
+       {std::pair{meshes::Sector::full, 1.0}, {meshes::Sector::quarter, 4.0}})
+    for (const double refinement : {0.4, 0.5, 0.6}) {
+      meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(refinement);
+      options.sector = sector;
+      const meshes::MeshQuality quality = meshes::write_tip_mesh(pad, options, folder / "pad.msh");
+      EXPECT_GT(quality.min_scaled_jacobian, 0.04) << refinement;
+      // Straight sides.
+      EXPECT_NEAR(parts * quality.volume / pad.tip_volume(), 1.0, 0.04) << refinement;
+    }
 }
 
 /// The program makes triangles of it and keeps them.
