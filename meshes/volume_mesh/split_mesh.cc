@@ -320,7 +320,8 @@ void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
     sizes.add_narrow(surface);
     for (int attempt = 0; attempt < max_attempts; ++attempt) {
       const Tetrahedra tetrahedra = without_flat_corners(tetrahedra_within(
-          surface, [&](const Vector3& w) { return sizes.at(w); }, surface_distance * usual));
+          surface, [&](const Vector3& w) { return sizes.at(w); }, surface_distance * usual,
+          EdgeSizes::by_field));
       const HexahedralMesh mesh = divided(tetrahedra, *parts);
       const std::vector<Vector3> bad = bad_places(mesh);
       if (bad.empty()) {

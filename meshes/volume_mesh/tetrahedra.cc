@@ -186,7 +186,8 @@ std::vector<PartBorder> borders_of(const PartedSurface& surface) {
   return borders;
 }
 
-Tetrahedra tetrahedra_within(const PartedSurface& surface, const SizeField& size, double distance) {
+Tetrahedra tetrahedra_within(const PartedSurface& surface, const SizeField& size, double distance,
+                             EdgeSizes edge_sizes) {
   namespace parameters = CGAL::parameters;
   CGAL::get_default_random() = CGAL::Random(0);  // the mesher draws from it
   Domain domain(surface_mesh(surface));
@@ -202,8 +203,8 @@ Tetrahedra tetrahedra_within(const PartedSurface& surface, const SizeField& size
   const Complex complex = CGAL::make_mesh_3<Complex>(
       domain, criteria, parameters::exude(parameters::sliver_bound = sliver_angle),
       parameters::no_perturb(),
-      // Else all of an edge of the body is divided as finely as its ends.
-      parameters::mesh_3_options(parameters::nonlinear_growth_of_balls = true));
+      parameters::mesh_3_options(parameters::nonlinear_growth_of_balls =
+                                     edge_sizes == EdgeSizes::by_field));
   if (complex.number_of_cells_in_complex() == 0)
     throw NotConverged("the finger could not be filled with tetrahedra");
   return taken_from(complex);

@@ -40,8 +40,13 @@ struct Tetrahedra {
   std::vector<Facet> facets;                   ///< the boundary, in any sense
 };
 
+/// How an edge of the body is divided: all of it nearly as finely as its ends, or as the size field
+/// says.
+enum class EdgeSizes { as_ends, by_field };
+
 /// The same for the same input. Its surface keeps within `distance` [m] of the triangles. Throws
 /// NotConverged when it would take millions of tetrahedra, or none is of such a size.
-Tetrahedra tetrahedra_within(const PartedSurface& surface, const SizeField& size, double distance);
+Tetrahedra tetrahedra_within(const PartedSurface& surface, const SizeField& size, double distance,
+                             EdgeSizes edge_sizes = EdgeSizes::as_ends);
 
 }  // namespace fingertip::meshes::inline volume_mesh
