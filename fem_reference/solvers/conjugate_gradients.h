@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 
 #include "fem_reference/elements/assembly.h"
 
@@ -34,14 +35,14 @@ template <class V, class Multiply, class Improve>
 CgOutcome conjugate_gradients(V& u, V& residual, double enough, int most, const Multiply& multiply,
                               const Improve& improve) {
   CgOutcome outcome;
-  V direction = residual;
+  V direction;
   double before = 0.0;
   while (product(residual, residual) > enough * enough) {
     if (outcome.iterations >= most) return {CgEnd::too_many, outcome.iterations};
     V better = improve(residual);
     const double now = product(residual, better);
     if (before > 0.0) add(now / before, direction, better);
-    direction = better;
+    direction = std::move(better);
     before = now;
     const V force = multiply(direction);
     const double curvature = product(direction, force);

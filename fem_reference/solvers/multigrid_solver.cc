@@ -77,7 +77,7 @@ class MultigridSolver : public FieldSolver {
     ConstrainedSolution solution;
     solution.cg_iterations = relax(load, held);
     Vector force = body_.fine.vector();
-    system_->matrix.vmult(force, displacement_);
+    multiply(system_->matrix, displacement_, force);
     force -= load_;
     solution.displacement = gather(displacement_);
     solution.reaction = gather(force);
@@ -108,14 +108,14 @@ class MultigridSolver : public FieldSolver {
   int relax(const Vector& load, const std::vector<char>& held) {
     const ProjectedMatrix matrix(system_->matrix, held_);
     Vector residual = load;
-    system_->matrix.vmult(residual, displacement_);
+    multiply(system_->matrix, displacement_, residual);
     const double scale = std::max(residual.l2_norm(), load.l2_norm());  // mostly the reactions
     residual.sadd(-1.0, 1.0, load);
     matrix.project(residual);
     const double first = residual.l2_norm();
     if (enough_ == 0.0 || forcing_ == 0.0) enough_ = std::max(tolerance_ * scale, forcing_ * first);
     if (scale > 0.0) noise_ = std::max(noise_, 10.0 * enough_ / scale);
-    const Vector start = displacement_;
+    Vector u = displacement_;
     int iterations = 0;
     while (residual.l2_norm() > enough_) {
       const double decades = std::log10(residual.l2_norm() / enough_);
@@ -123,7 +123,7 @@ class MultigridSolver : public FieldSolver {
       const int most =
           fresh ? max_iterations : usual + int(patience * iterations_per_decade_ * decades);
       const CgOutcome outcome = conjugate_gradients(
-          displacement_, residual, enough_, most,
+          u, residual, enough_, most,
           [&](const Vector& v) {
             Vector force = v;
             matrix.vmult(force, v);
@@ -135,13 +135,11 @@ class MultigridSolver : public FieldSolver {
             return better;
           });
       iterations += outcome.iterations;
-      const bool hopeless = fresh && outcome.end == CgEnd::too_many;
-      if (hopeless || outcome.end == CgEnd::indefinite) displacement_ = start;
       if (outcome.end == CgEnd::indefinite)
         throw meshes::NotConverged(
             "the stiffness matrix is not positive definite: a degenerate mesh, or a state that is "
             "not stable");
-      if (hopeless)
+      if (fresh && outcome.end == CgEnd::too_many)
         throw meshes::NotConverged("conjugate gradients stopped at a residual of " +
                                    std::to_string(residual.l2_norm() / scale) +
                                    " of the reactions after " + std::to_string(iterations) +
@@ -149,6 +147,7 @@ class MultigridSolver : public FieldSolver {
       if (fresh) iterations_per_decade_ = std::max(1, outcome.iterations) / decades;
       if (outcome.end == CgEnd::too_many) build(held);
     }
+    displacement_ = u;
     return iterations;
   }
 
