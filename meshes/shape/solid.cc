@@ -207,8 +207,8 @@ bool Solid::compare_with_image(int axis) const {
     w[axis] = -w[axis];
     const auto image = tree_->nearest(w, groups_[t]);
     const double close = mirrored_within * radius_;
-    return image->distance <= close || image->distance <= close + height_around(t) ||
-           image->distance <= close + height_around(image->triangle);
+    return image->distance <= close ||
+           image->distance <= close + std::max(height_around(t), height_around(image->triangle));
   };
   std::array<std::vector<bool>, 2> known;  // corners of facets that may touch, and that are held
   for (auto& corners : known) corners.resize(mesh_.vertices.size());
