@@ -26,7 +26,7 @@ constexpr double facets_per_radian = 20.0, facets_per_radius = 8.0;
 constexpr double smooth_cosine = 0.766;
 /// A part this narrow, over the largest radius, belongs to a neighbour: elements of its width would
 /// be countless. What is held moves as one, so that its own edges do not matter.
-constexpr double narrow = 0.02, narrow_bond = 0.2;
+constexpr double narrow = 0.02, narrow_bond = 0.4;
 /// Creases of this length together, over the largest radius, which seldom branch, are meant; others
 /// are the roughness of a scan.
 constexpr double short_crease = 0.2;
@@ -155,7 +155,7 @@ class SolidParts final : public BoundaryParts {
     return tree_->nearest(w, part)->position;
   }
   PartedSurface surface(Sector sector) const override {
-    PartedSurface all{solid_->mesh(), parts_, creases_};
+    PartedSurface all{solid_->mesh(), parts_, creases_, hides_edges_};
     const double grain = Solid::mirrored_within * solid_->largest_radius();
     if (sector != Sector::full) all = positive_side(std::move(all), 1, grain, plane_y());
     if (sector == Sector::quarter) all = positive_side(std::move(all), 0, grain, plane_x());

@@ -102,6 +102,7 @@ PartedSurface positive_side(PartedSurface surface, int axis, double grain, int p
   const auto height = [&](int vertex) { return mesh.vertices[std::size_t(vertex)][axis]; };
 
   PartedSurface half;
+  half.hides_edges = surface.hides_edges;
   half.mesh.vertices = mesh.vertices;
   std::set<std::array<int, 2>> open;  // edges whose other triangle is missing, by their ends
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

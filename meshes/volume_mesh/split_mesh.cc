@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -29,9 +30,11 @@ constexpr double surface_distance = 0.1;
 /// Where a corner's Jacobian is less, of a cube 1, sizes shrink by `smaller`.
 constexpr double min_jacobian = 0.05, smaller = 0.7;
 constexpr int max_attempts = 24;
-/// Where that does not help, all is begun anew with sizes smaller by this.
-constexpr double smaller_everywhere = 0.85;
-constexpr int max_beginnings = 3;
+/// Sizes over the usual with which filling begins. How often tetrahedra must shrink is a matter of
+/// chance, so of the first `tried` the mesh of fewest hexahedra is taken, unless one has so many
+/// that chance is small; the others are for bodies that none of those fills.
+constexpr std::array beginnings{1.0, 1.1, 1.05, 0.95, 0.85, 0.72};
+constexpr std::size_t tried = 4, many = 5000;
 /// Facets of a tetrahedron that turn by less than 60 degrees go on from one to the other.
 constexpr double flat_cosine = 0.5;
 
@@ -312,26 +315,30 @@ void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
   Vector3 touch = options.touch.value_or(Vector3(0.0, 0.0, shape->pole()));
   if (options.sector != Sector::full) touch.y() = std::abs(touch.y());
   if (options.sector == Sector::quarter) touch.x() = std::abs(touch.x());
-  double share = 1.0;
   Vector3 last = touch;
-  for (int beginning = 0; beginning < max_beginnings; ++beginning, share *= smaller_everywhere) {
-    Sizes sizes(share * usual);
-    sizes.add(touch, share * usual / options.cap_grading);
-    sizes.add_narrow(surface);
+  const auto filled = [&](Sizes sizes) -> std::optional<HexahedralMesh> {
     for (int attempt = 0; attempt < max_attempts; ++attempt) {
       const Tetrahedra tetrahedra = without_flat_corners(tetrahedra_within(
           surface, [&](const Vector3& w) { return sizes.at(w); }, surface_distance * usual,
           EdgeSizes::by_field));
-      const HexahedralMesh mesh = divided(tetrahedra, *parts);
+      HexahedralMesh mesh = divided(tetrahedra, *parts);
       const std::vector<Vector3> bad = bad_places(mesh);
-      if (bad.empty()) {
-        hand_to_gmsh(mesh);
-        return;
-      }
+      if (bad.empty()) return mesh;
       last = bad.front();
       sizes.shrink(bad);
     }
+    return {};
+  };
+  std::optional<HexahedralMesh> best;
+  for (std::size_t i = 0; i < beginnings.size(); ++i) {
+    if (best && (i >= tried || best->hexahedra.size() > many)) break;
+    Sizes sizes(beginnings[i] * usual);
+    sizes.add(touch, beginnings[i] * usual / options.cap_grading);
+    sizes.add_narrow(surface);
+    std::optional<HexahedralMesh> mesh = filled(std::move(sizes));
+    if (mesh && (!best || mesh->hexahedra.size() < best->hexahedra.size())) best = std::move(mesh);
   }
+  if (best) return hand_to_gmsh(*best);
   throw NotConverged(
       "the finger could not be filled with hexahedra: near " + place_of(last) +
       " its surface turns too much over lengths as short as its elements; round its edges there, "

@@ -10,6 +10,7 @@
 #include <CGAL/make_mesh_3.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -66,7 +67,11 @@ SurfaceMesh surface_mesh(const PartedSurface& surface) {
 class Borders {
  public:
   explicit Borders(const PartedSurface& surface) : surface_(surface) {
-    for (const PartBorder& border : borders_of(surface)) add(border.ends[0], border.ends[1]);
+    for (const PartBorder& border : borders_of(surface)) {
+      add(border.ends[0], border.ends[1]);
+      for (const int end : border.ends)
+        meeting_[end].insert(border.parts.begin(), border.parts.end());
+    }
     for (const auto& [a, b] : surface.creases) add(a, b);
     Eigen::AlignedBox3d box;
     for (const Vector3& w : surface.mesh.vertices) box.extend(w);
@@ -96,6 +101,10 @@ class Borders {
   /// Whether a line ends there.
   bool turns(int vertex, const std::set<int>& others) const {
     if (others.size() != 2) return true;
+    const auto parts = meeting_.find(vertex);
+    if (parts != meeting_.end() && parts->second.size() == 2 &&
+        std::ranges::any_of(parts->second, [&](int part) { return surface_.may_hide(part); }))
+      return false;  // of an edge within one of them that a mesh need not have
     const auto one = beside(vertex, *others.begin()), other = beside(vertex, *others.rbegin());
     if (!one || !other) return false;
     return -one->dot(*other) < corner_cosine * one->norm() * other->norm();
@@ -128,9 +137,9 @@ class Borders {
   }
 
   const PartedSurface& surface_;
-  double apart_ = 0.0;  ///< least distance of corners [m]
-  std::map<int, std::set<int>> next_;
-  std::map<int, bool> corners_;  ///< where a line ends, before edges were taken
+  double apart_ = 0.0;                           ///< least distance of corners [m]
+  std::map<int, std::set<int>> next_, meeting_;  ///< neighbours; parts
+  std::map<int, bool> corners_;                  ///< where a line ends, before edges were taken
 };
 
 struct Sizes {

@@ -16,6 +16,12 @@ struct PartedSurface {
   std::vector<int> parts;  ///< of the triangles
   /// Edges at which a part turns sharply into itself, by their ends; a mesh has them, too.
   std::vector<std::array<int, 2>> creases = {};
+  /// Of the first parts, whether they have edges within that a mesh need not have.
+  std::vector<bool> hides_edges = {};
+
+  bool may_hide(int part) const {
+    return std::size_t(part) < hides_edges.size() && hides_edges[std::size_t(part)];
+  }
 };
 
 /// An edge between two parts.
