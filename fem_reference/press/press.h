@@ -98,6 +98,7 @@ class ContinuumPress {
 
   const ReferenceJob job_;
   const PressCourse course_;
+  const std::function<bool()> stop_requested_;
   double place_ = 0.0;  ///< on the course [m]
 
  private:
@@ -114,7 +115,6 @@ class ContinuumPress {
   Steps steps_to(double target) const;
   double next_step(double target, double limit) const;
 
-  const std::function<bool()> stop_requested_;
   Steps steps_;
 };
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "fem_reference/elements/kinematics.h"
+#include "fem_reference/job/processes.h"
 #include "fem_reference/solvers/solver_choice.h"
 #include "fem_reference/tip/job_mesh.h"
 #include "meshes/base/errors.h"
@@ -209,6 +210,7 @@ void TipPress<dim>::newton_step(double place, bool sampled, PressEffort& effort)
   bool stale = true;  // the tangent
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_newton_iterations; ++iteration) {
+    stop_if_asked(stop_requested_);
     ++effort.newton_iterations;
     const bool new_tangent = std::exchange(stale, false);
     if (new_tangent) assemble(*body_, *kernel_, u, *system_);

@@ -30,6 +30,9 @@ constexpr double off_part = 1e-6;
 /// Smallest Jacobian of a cell that is not turned, over the lengths of its tangents: at hidden
 /// edges, and elsewhere, where a cell with straight sides may have 0.03.
 constexpr double min_at_edges = 0.05, min_jacobian = 0.01;
+/// A face is between its lines alone where one of them, on an edge of the body, is further than
+/// this from a parabola, over the face's size: small elements beside it would be turned.
+constexpr double off_parabola = 1e-3;
 /// Newton's method for a place on parabolas, whose coordinates run from 0 to 1.
 constexpr int max_steps = 20;
 constexpr double small_step = 1e-13;
@@ -209,6 +212,9 @@ class BoundarySides {
   void bend(Bent<Face>& own) {
     const Face& face = own.side;
     if (!own.hidden || own.flat_since >= 0) return;
+    for (unsigned i = 0; i < 4; ++i)
+      if (bends_otherwise(face->line(i), off_parabola * face->diameter()))
+        return own.flatten(round_);
     std::array<dealii::Point<3>, 4> corners, middles;
     dealii::Point<3> within;  // the sides' transfinite interpolation
     for (unsigned i = 0; i < 4; ++i) {
@@ -219,6 +225,21 @@ class BoundarySides {
     set<2>(own,
            {corners[0], middles[2], corners[1], middles[0], boundary_.on({*own.hidden}, within),
             middles[1], corners[2], middles[3], corners[3]});
+  }
+
+  static bool bends_otherwise(const Line& line, double tolerance) {
+    const dealii::Point<3> middle = line->center(true);
+    for (const unsigned end : {0, 1}) {
+      const std::array<dealii::Point<3>, 2> half = {line->vertex(end), middle};
+      const std::array<double, 2> weights = {0.5, 0.5};
+      const dealii::Point<3> quarter = line->get_manifold().get_new_point(
+          dealii::make_array_view(half.begin(), half.end()),
+          dealii::make_array_view(weights.begin(), weights.end()));
+      const dealii::Tensor<1, 3> of_parabola =
+          0.375 * half[0] + 0.75 * middle - 0.125 * line->vertex(1 - end);
+      if ((quarter - of_parabola).norm() > tolerance) return true;
+    }
+    return false;
   }
 
   template <int dim, typename Side>
