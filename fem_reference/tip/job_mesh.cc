@@ -7,19 +7,15 @@
 
 #include "fem_reference/job/processes.h"
 #include "meshes/base/errors.h"
-#include "meshes/press/obstacle.h"
 
 namespace fingertip::fem_reference::inline tip {
 
 meshes::Sector sector(const ReferenceJob& job) {
   using meshes::Sector;
   if (job.axisymmetric()) return Sector::meridian;
-  const meshes::Solid* solid = job.geometry.solid.get();
   const bool modes = job.analysis == Analysis::modes;
-  if (solid && (modes || !solid->mirrored(1))) return Sector::full;
-  const meshes::PressProtocol& press = job.protocol;
-  const bool mirrored = (!solid || solid->mirrored(0)) && press.tilt == 0.0 &&
-                        press.lateral == 0.0 && press.obstacle.mirrored();
+  if (!job.geometry.mirrored(1) || (modes && job.geometry.solid)) return Sector::full;
+  const bool mirrored = job.geometry.mirrored(0) && job.protocol.mirrored();
   return mirrored || modes ? Sector::quarter : Sector::half;
 }
 

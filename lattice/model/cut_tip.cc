@@ -6,7 +6,6 @@
 
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
-#include "meshes/shape/solid.h"
 
 namespace fingertip::lattice::inline model {
 
@@ -105,7 +104,7 @@ CubicGrid tip_grid(const Geometry& geometry, const LatticeSettings& settings, in
 int grid_symmetry(const Geometry& geometry, const LatticeSettings& settings) {
   if (!settings.axes.isIdentity(0.0)) return 1;
   const auto mirrored = [&](int axis) {
-    return settings.offset[axis] == 0.0 && (!geometry.solid || geometry.solid->mirrored(axis));
+    return settings.offset[axis] == 0.0 && geometry.mirrored(axis);
   };
   return !mirrored(1) ? 1 : mirrored(0) ? 4 : 2;
 }

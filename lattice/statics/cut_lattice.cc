@@ -203,8 +203,7 @@ int largest_symmetry(const Geometry& geometry, const LatticeSettings& settings,
 int way_symmetry(const Geometry& geometry, const LatticeSettings& settings,
                  const meshes::PressProtocol& protocol) {
   const int sectors = grid_symmetry(geometry, settings);
-  const bool straight = protocol.tilt == 0.0 && protocol.lateral == 0.0;
-  return straight && protocol.obstacle.mirrored() ? sectors : std::min(sectors, 2);
+  return protocol.mirrored() ? sectors : std::min(sectors, 2);
 }
 
 }  // namespace fingertip::lattice::inline statics

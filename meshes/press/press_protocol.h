@@ -89,6 +89,9 @@ struct PressProtocol {
 
   bool has_obstacle() const { return !obstacle.is_plane(); }
 
+  /// Whether it is its own image in x = 0; in y = 0 it always is.
+  bool mirrored() const { return tilt == 0.0 && lateral == 0.0 && obstacle.mirrored(); }
+
   /// Whether some stage of a program goes back up.
   bool goes_back() const;
 

@@ -53,6 +53,10 @@ Geometry Geometry::of_solid(std::shared_ptr<const Solid> solid, std::optional<do
   return geometry;
 }
 
+bool Geometry::mirrored(int axis) const {
+  return !solid || solid->mirrored(axis);
+}
+
 std::string_view Geometry::shape_name() const {
   if (solid) return "solid";
   return profile.empty() ? "dome" : "profile";

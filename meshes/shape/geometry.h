@@ -42,6 +42,8 @@ struct Geometry {
   static Geometry of_solid(std::shared_ptr<const Solid> solid,
                            std::optional<double> endpoint = std::nullopt);
   bool is_dome() const { return profile.empty() && !solid; }
+  /// Whether it is its own image in the plane through the axis across x (`axis` 0) or y (1).
+  bool mirrored(int axis) const;
   /// The word of geometry.shape: dome, profile or solid.
   std::string_view shape_name() const;
 

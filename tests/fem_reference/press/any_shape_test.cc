@@ -140,6 +140,32 @@ TEST(AnyShape, CellsAtHiddenEdgesAreDividedAndNotTurned) {
   EXPECT_NO_THROW(assemble(*body, kernel, body->fine.vector(), system));
 }
 
+/// A cylinder of few facets under a dome: at the end of its bond edges are no parabolas.
+TEST(AnyShape, CellsAtAnEdgeOfFacetsAreDividedAndNotTurned) {
+  constexpr double radius = 8e-3, bond = 3e-3;
+  std::vector<std::array<double, 2>> curve = {{0.0, 0.0}, {radius, 0.0}};
+  for (const double angle : {0.0, 0.4, 0.8, 1.2})
+    curve.push_back({radius * std::cos(angle), 0.012 + radius * std::sin(angle)});
+  curve.push_back({0.0, 0.012 + radius});
+  const Geometry geometry = Geometry::of_solid(std::make_shared<meshes::Solid>(
+      fingers::revolved(curve, 10), meshes::Region{{{2, true, bond}}}));
+  const SharedMesh mesh(0.5, Sector::half, geometry);
+  const auto body = read(mesh, geometry);
+  for (int level = 0; level < 4; ++level) {
+    for (const auto& cell : body->triangulation.active_cell_iterators())
+      for (const auto& face : cell->face_iterators())
+        for (const unsigned v : face->vertex_indices())
+          if (face->at_boundary() && PhysicalTag(face->boundary_id()) == PhysicalTag::bond &&
+              std::abs(face->vertex(v)[2] - bond) < 1e-9)
+            cell->set_refine_flag();
+    body->triangulation.execute_coarsening_and_refinement();
+  }
+  body->number({});
+  fem_reference::HookeKernel<3> kernel({}, fem_reference::Volumetric::mean_dilatation);
+  fem_reference::LinearSystem system(*body, false);
+  EXPECT_NO_THROW(assemble(*body, kernel, body->fine.vector(), system));
+}
+
 /// A cell across the block's lower edge that a parabola would turn inside out, and no other.
 TEST(AnyShape, SidesAreFlatWhereTheLastCellWouldBeTurned) {
   const Geometry geometry = block();

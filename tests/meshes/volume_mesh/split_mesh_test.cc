@@ -81,6 +81,21 @@ TEST(SplitMesh, IsTheSameForTheSameFinger) {
   EXPECT_EQ(read_text(folder / "a.msh"), read_text(folder / "b.msh"));
 }
 
+/// A bond as narrow as round-off asks for no elements of its width, also where mirror planes cut
+/// its corners.
+TEST(SplitMesh, IsCoarseAtHiddenEdges) {
+  const TemporaryFolder folder;
+  const TriangleMesh box = fingers::box({-0.008, -0.01, 0.0}, {0.008, 0.01, 0.018});
+  const auto strip = std::make_shared<Solid>(box, Region{{{2, true, 1e-4}}}),
+             flat = std::make_shared<Solid>(box, Region{{{2, true, 0.0}}});
+  for (const Sector sector : {Sector::full, Sector::half, Sector::quarter}) {
+    const auto count = [&](const std::shared_ptr<const Solid>& solid) {
+      return write({"", Geometry::of_solid(solid), sector, 1.0}, 0.5, folder / "tip.msh").hexahedra;
+    };
+    EXPECT_LT(double(count(strip)), 1.5 * double(count(flat)));
+  }
+}
+
 TEST(SplitMesh, IsFineWhereItIsTouchedFirst) {
   const TemporaryFolder folder;
   const Finger finger = finger_list()[0];
