@@ -15,14 +15,14 @@ namespace {
 
 /// A step that does not converge is halved this often before giving up.
 constexpr int max_halvings = 6;
-/// On a mesh the way to which is known from a coarser one, what long steps miss is how the two ways
-/// differ, which halves from mesh to mesh: so steps may double. Not where so little is tolerated
-/// that this would show [of the force].
-constexpr double tolerates_long_steps = 0.01, error_of_long_steps = 1.5e-3;
+/// What steps twice as long miss on a first mesh [of the force]: where nodes touch first. On the
+/// next ones it is how two ways differ, which halves from mesh to mesh: so steps may double.
+constexpr double error_of_long_steps = 1.5e-3;
+/// Steps are longer or shorter in proportion where more or less than this is tolerated.
+constexpr double tolerates_long_steps = 0.01, longest_share = 2.0;
 
-/// Shorter for a tolerance below that.
 double share_of_long_steps(const ReferenceJob& job) {
-  return std::min(1.0, job.tolerance / tolerates_long_steps);
+  return std::min(longest_share, job.tolerance / tolerates_long_steps);
 }
 
 }  // namespace
@@ -46,13 +46,14 @@ bool ContinuumPress::keeps_way(const ReferenceJob& job) {
 }
 
 ContinuumPress::Steps ContinuumPress::steps_to(double target) const {
+  if (!keeps_way(job_) || job_.protocol.contact == meshes::ContactMode::coulomb) return steps_;
   const int meshes = meshes_before(target);
-  if (meshes == 0 || job_.protocol.contact == meshes::ContactMode::coulomb) return steps_;
   constexpr double any = std::numeric_limits<double>::infinity();
-  if (frictionless()) return {1.0, 1.0, any};
+  if (frictionless()) return meshes == 0 ? steps_ : Steps{1.0, 1.0, any};
   const double longer = std::ldexp(share_of_long_steps(job_), meshes);
   if (longer <= 1.0) return steps_;
-  return {std::min(1.0, longer * steps_.first), longer * steps_.growth, any};
+  return {std::min(1.0, longer * steps_.first), longer * steps_.growth,
+          meshes == 0 ? longer * steps_.longest : any};
 }
 
 double ContinuumPress::next_step(double target, double limit) const {
