@@ -15,11 +15,10 @@ namespace {
 
 /// A step that does not converge is halved this often before giving up.
 constexpr int max_halvings = 6;
-/// What steps twice as long miss on a first mesh [of the force]: where nodes touch first. On the
-/// next ones it is how two ways differ, which halves from mesh to mesh: so steps may double.
-constexpr double error_of_long_steps = 1.5e-3;
-/// Steps are longer or shorter in proportion where more or less than this is tolerated.
-constexpr double tolerates_long_steps = 0.01, longest_share = 2.0;
+/// What the steps of a known way may miss of the force where `tolerates_long_steps` is tolerated.
+/// They and this are longer or shorter in proportion elsewhere, and double from mesh to mesh: what
+/// they miss is how two ways differ, which halves.
+constexpr double error_of_long_steps = 1.7e-3, tolerates_long_steps = 0.01, longest_share = 2.0;
 
 double share_of_long_steps(const ReferenceJob& job) {
   return std::min(longest_share, job.tolerance / tolerates_long_steps);
@@ -31,8 +30,8 @@ ContinuumPress::ContinuumPress(const ReferenceJob& job, std::function<bool()> st
     : job_(job),
       course_(job.protocol, job.in_time()),
       stop_requested_(std::move(stop_requested)),
-      // Where a node first touches is remembered: at nu = 0.49 steps twice as long are off by
-      // 0.15 %. Without friction only Newton's method asks for steps.
+      // Where a node first touches is remembered: steps twice as long are off by up to 0.15 % where
+      // no known way corrects them. Without friction only Newton's method asks for steps.
       steps_(frictionless() ? Steps{1.0, 1.0, 0.1} : Steps{0.1, 0.25, 0.01}) {}
 
 double ContinuumPress::step_error(const ReferenceJob& job) {
@@ -82,6 +81,9 @@ PressState ContinuumPress::advance(double place) {
       step(next, next == place, effort);
       ++effort.steps;
       limit = std::min(1.0, 1.5 * limit);
+    } catch (const meshes::Interrupted&) {
+      abandon();
+      throw;
     } catch (const meshes::NotConverged& error) {
       abandon();
       if (one_step() || limit < std::pow(0.5, max_halvings)) {

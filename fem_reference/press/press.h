@@ -18,8 +18,8 @@ struct PressSnapshot;
 /// inertia, under a plane that moves along the path at the job's speed from first touch on.
 ///
 /// Computed is its meridian when the job is axisymmetric, a quarter of it when nothing else breaks
-/// the symmetry, a half (y >= 0) when it is tilted or moved laterally; a solid as a whole.
-/// All processes of MPI_COMM_WORLD take part in every call.
+/// the symmetry, a half (y >= 0) when it is tilted or moved laterally; so of a solid that is its
+/// own mirror image, of others the whole. All processes of MPI_COMM_WORLD take part in every call.
 class ContinuumPress {
  public:
   static constexpr double usual_relaxing_step = 1.0 / 64.0;
@@ -29,8 +29,8 @@ class ContinuumPress {
   static std::unique_ptr<ContinuumPress> on(const ReferenceJob& job,
                                             const std::filesystem::path& mesh_file,
                                             std::function<bool()> stop_requested = {});
-  /// By which forces of such a job may be off, over themselves, for the steps of a way that was
-  /// found on coarser meshes; 0 where its steps are the usual ones or do not matter. Compared with
+  /// By which forces of such a job may be off, over themselves, for the steps of a way that is
+  /// known from mesh to mesh; 0 where its steps are the usual ones or do not matter. Compared with
   /// usual steps on every mesh: MEASUREMENTS.md, The known way.
   static double step_error(const ReferenceJob& job);
 
@@ -40,7 +40,8 @@ class ContinuumPress {
 
   virtual MeshSummary mesh() const = 0;
 
-  /// Longest step in units of R - r; at first 0.01, or 0.1 where nothing sticks.
+  /// Longest step in units of R - r; at first 0.01, or 0.1 where nothing sticks. Where the way is
+  /// kept from mesh to mesh, steps are up to twice as long by the job's tolerance.
   void set_longest_step(double step) { steps_.longest = step; }
   /// Longest step of a rubber that relaxes, over the time since first touch or since the program's
   /// stage began; at first `usual_relaxing_step`, with which forces at large strain are within 0.03
@@ -48,8 +49,8 @@ class ContinuumPress {
   void set_relaxing_step(double share) { steps_.of_relaxing = share; }
 
   /// Moves on to `place` [m] of the job's PressCourse, at least the present one. Throws
-  /// NotConverged, which leaves the press at the last step that converged; Interrupted between
-  /// steps once `stop_requested` says so.
+  /// NotConverged, or Interrupted once `stop_requested` says so; both leave the press at the last
+  /// step that converged.
   PressState advance(double place);
 
   /// Refines the mesh and starts anew from rest. `wanted` has one flag per sample so far; empty
@@ -91,9 +92,10 @@ class ContinuumPress {
   /// Reads the sample off the present state and remembers where its error is large.
   virtual PressState evaluate() = 0;
 
-  /// Whether what is found on a mesh shortens the way on the next: at large strain, where each step
-  /// costs several factorisations. A meridian's cost nothing; friction and relaxation remember more
-  /// than first touch, and keep their steps: relaxation all, Coulomb's law their length.
+  /// Whether what is found on a mesh shortens the way on the next, so that steps may be long: at
+  /// large strain, where each step costs several factorisations. A meridian's cost nothing;
+  /// friction and relaxation remember more than first touch, and keep their steps: relaxation all,
+  /// Coulomb's law their length.
   static bool keeps_way(const ReferenceJob& job);
 
   const ReferenceJob job_;

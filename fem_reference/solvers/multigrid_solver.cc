@@ -11,9 +11,10 @@
 namespace fingertip::fem_reference::inline solvers {
 namespace {
 
-/// For a solution, and for one of Newton's systems, which takes 5 to 50: an indefinite matrix may
-/// go on for ever.
-constexpr int max_iterations = 1000, max_inexact = 150;
+/// For a solution; and a decade of one of Newton's systems, at least for `fewest_decades` (they
+/// take 2 to 15): an indefinite matrix may go on for ever.
+constexpr int max_iterations = 1000, max_inexact = 50;
+constexpr double fewest_decades = 3.0;
 /// The preconditioner is built anew when more than this share of the held unknowns has changed, and
 /// when a solution takes so many times the iterations that its like took, and `usual` more.
 constexpr double worth_rebuilding = 0.02, patience = 1.5;
@@ -122,8 +123,10 @@ class MultigridSolver : public FieldSolver {
     while (residual.l2_norm() > enough_) {
       const double decades = std::log10(residual.l2_norm() / enough_);
       const bool fresh = iterations_per_decade_ == 0.0;
-      const int most = fresh ? (forcing_ > 0.0 ? max_inexact : max_iterations)
-                             : usual + int(patience * iterations_per_decade_ * decades);
+      int most = usual + int(patience * iterations_per_decade_ * decades);
+      if (fresh) most = max_iterations;
+      if (fresh && forcing_ > 0.0)
+        most = std::min(most, int(max_inexact * std::max(fewest_decades, decades)));
       const CgOutcome outcome = conjugate_gradients(
           u, residual, enough_, most,
           [&](const Vector& v) {

@@ -30,8 +30,8 @@ constexpr double off_part = 1e-6;
 /// Smallest Jacobian of a cell that is not turned, over the lengths of its tangents: at hidden
 /// edges, and elsewhere, where a cell with straight sides may have 0.03.
 constexpr double min_at_edges = 0.05, min_jacobian = 0.01;
-/// A face is between its lines alone where one of them, on an edge of the body, is further than
-/// this from a parabola, over the face's size: small elements beside it would be turned.
+/// Where a line on an edge of the body is further than this from a parabola, over the face's size,
+/// the face is only spanned by its lines: small elements beside it would be turned.
 constexpr double off_parabola = 1e-3;
 /// Newton's method for a place on parabolas, whose coordinates run from 0 to 1.
 constexpr int max_steps = 20;

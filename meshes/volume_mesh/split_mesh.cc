@@ -31,8 +31,8 @@ constexpr double surface_distance = 0.1;
 constexpr double min_jacobian = 0.05, smaller = 0.7;
 constexpr int max_attempts = 24;
 /// Sizes over the usual with which filling begins. How often tetrahedra must shrink is a matter of
-/// chance, so of the first `tried` the mesh of fewest hexahedra is taken, unless one has so many
-/// that chance is small; the others are for bodies that none of those fills.
+/// chance, so of the first `tried` the mesh of fewest hexahedra is taken, or one of so many that
+/// chance is small; the others are for bodies that none of those fills.
 constexpr std::array beginnings{1.0, 1.1, 1.05, 0.95, 0.85, 0.72};
 constexpr std::size_t tried = 4, many = 5000;
 /// Facets of a tetrahedron that turn by less than 60 degrees go on from one to the other.
@@ -316,12 +316,15 @@ void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
   if (options.sector != Sector::full) touch.y() = std::abs(touch.y());
   if (options.sector == Sector::quarter) touch.x() = std::abs(touch.x());
   Vector3 last = touch;
-  const auto filled = [&](Sizes sizes) -> std::optional<HexahedralMesh> {
+  std::optional<HexahedralMesh> best;
+  const auto better = [&](Sizes sizes) -> std::optional<HexahedralMesh> {
     for (int attempt = 0; attempt < max_attempts; ++attempt) {
       const Tetrahedra tetrahedra = without_flat_corners(tetrahedra_within(
           surface, [&](const Vector3& w) { return sizes.at(w); }, surface_distance * usual,
           EdgeSizes::by_field));
       HexahedralMesh mesh = divided(tetrahedra, *parts);
+      // It only grows from here.
+      if (best && mesh.hexahedra.size() >= best->hexahedra.size()) return {};
       const std::vector<Vector3> bad = bad_places(mesh);
       if (bad.empty()) return mesh;
       last = bad.front();
@@ -329,14 +332,16 @@ void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
     }
     return {};
   };
-  std::optional<HexahedralMesh> best;
   for (std::size_t i = 0; i < beginnings.size(); ++i) {
     if (best && (i >= tried || best->hexahedra.size() > many)) break;
     Sizes sizes(beginnings[i] * usual);
     sizes.add(touch, beginnings[i] * usual / options.cap_grading);
     sizes.add_narrow(surface);
-    std::optional<HexahedralMesh> mesh = filled(std::move(sizes));
-    if (mesh && (!best || mesh->hexahedra.size() < best->hexahedra.size())) best = std::move(mesh);
+    try {
+      if (auto mesh = better(std::move(sizes))) best = std::move(mesh);
+    } catch (const NotConverged&) {  // more tetrahedra than is sensible
+      if (!best) throw;
+    }
   }
   if (best) return hand_to_gmsh(*best);
   throw NotConverged(

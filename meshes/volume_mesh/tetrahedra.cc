@@ -103,8 +103,8 @@ class Borders {
     if (others.size() != 2) return true;
     const auto parts = meeting_.find(vertex);
     if (parts != meeting_.end() && parts->second.size() == 2 &&
-        std::ranges::any_of(parts->second, [&](int part) { return surface_.may_hide(part); }))
-      return false;  // of an edge within one of them that a mesh need not have
+        surface_.may_hide(*parts->second.begin()) && surface_.cuts(*parts->second.rbegin()))
+      return false;  // a mirror plane cuts an edge that the mesh need not have
     const auto one = beside(vertex, *others.begin()), other = beside(vertex, *others.rbegin());
     if (!one || !other) return false;
     return -one->dot(*other) < corner_cosine * one->norm() * other->norm();

@@ -16,9 +16,13 @@ struct PartedSurface {
   std::vector<int> parts;  ///< of the triangles
   /// Edges at which a part turns sharply into itself, by their ends; a mesh has them, too.
   std::vector<std::array<int, 2>> creases = {};
-  /// Of the first parts, whether they have edges within that a mesh need not have.
+  /// Of the body's own parts, whether they have edges within that a mesh need not have. Those of
+  /// larger numbers are planes that cut it; none where this is empty.
   std::vector<bool> hides_edges = {};
 
+  bool cuts(int part) const {
+    return !hides_edges.empty() && std::size_t(part) >= hides_edges.size();
+  }
   bool may_hide(int part) const {
     return std::size_t(part) < hides_edges.size() && hides_edges[std::size_t(part)];
   }

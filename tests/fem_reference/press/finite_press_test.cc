@@ -164,6 +164,24 @@ TEST(FinitePress, TheWayOnACoarserMeshSavesSteps) {
   }
 }
 
+/// A first mesh has no known way, but where more is tolerated its steps are longer, too.
+TEST(FinitePress, ToleranceMakesStepsLonger) {
+  ReferenceJob job = finite_press();
+  job.protocol.tilt = 0.1;
+  job.protocol.contact = ContactMode::stick;
+  job.estimate_error = true;
+  const auto press = [&job](double tolerance) {
+    job.tolerance = tolerance;
+    Pressing pressing(job);
+    return pressing.press.advance(job.protocol.samples.back());
+  };
+  const PressState usual = press(0.01), longer = press(0.02);
+  EXPECT_EQ(usual.steps, press(0.001).steps);
+  EXPECT_LT(1.5 * longer.steps, usual.steps);
+  EXPECT_NEAR(longer.normal_force / usual.normal_force, 1.0,
+              fem_reference::ContinuumPress::step_error(job));
+}
+
 /// Without friction a single step, and the same force: against a ball, too.
 TEST(FinitePress, WithoutFrictionTheKnownWayTakesOneStep) {
   for (const auto shape : {meshes::ObstacleShape::plane, meshes::ObstacleShape::sphere}) {

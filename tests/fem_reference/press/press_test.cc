@@ -231,6 +231,17 @@ TEST(ContinuumPress, StopsOnRequest) {
   EXPECT_THROW(pressing.press.advance(1e-3), meshes::Interrupted);
 }
 
+/// Within a step, between iterations of Newton's method, which then begins again.
+TEST(ContinuumPress, GoesOnAfterAStop) {
+  ReferenceJob job = small_press();
+  job.strain = fem_reference::Strain::finite;
+  int asked = 0;
+  Pressing undisturbed(job), stopped(job, [&asked] { return ++asked == 3; });
+  EXPECT_THROW(stopped.press.advance(1e-3), meshes::Interrupted);
+  const double force = undisturbed.press.advance(1e-3).normal_force;
+  EXPECT_NEAR(stopped.press.advance(1e-3).normal_force / force, 1.0, 1e-6);
+}
+
 TEST(ContinuumPress, RefusesAMeshOfNothing) {
   EXPECT_THROW(fem_reference::ContinuumPress::on(small_press(), "no/such/file.msh"),
                meshes::InvalidInput);
