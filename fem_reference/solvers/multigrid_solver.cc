@@ -124,9 +124,9 @@ class MultigridSolver : public FieldSolver {
       const double decades = std::log10(residual.l2_norm() / enough_);
       const bool fresh = iterations_per_decade_ == 0.0;
       int most = usual + int(patience * iterations_per_decade_ * decades);
-      if (fresh) most = max_iterations;
-      if (fresh && forcing_ > 0.0)
-        most = std::min(most, int(max_inexact * std::max(fewest_decades, decades)));
+      if (fresh)
+        most =
+            forcing_ > 0.0 ? int(max_inexact * std::max(fewest_decades, decades)) : max_iterations;
       const CgOutcome outcome = conjugate_gradients(
           u, residual, enough_, most,
           [&](const Vector& v) {
