@@ -28,14 +28,15 @@ extern "C" void request_stop(int) {
 }
 
 /// Runs on every process; the first one speaks for all.
-int carry_out(const char* folder) {
+int carry_out(const char* folder, bool only_cost) {
   using fingertip::fem_reference::RunOutcome;
   const bool first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   std::ostringstream words;
   int code = failure;
   try {
-    const RunOutcome outcome =
-        fingertip::fem_reference::run_job(folder, std::cout, [] { return stop_flag != 0; });
+    const RunOutcome outcome = only_cost ? fingertip::fem_reference::tell_cost(folder, std::cout)
+                                         : fingertip::fem_reference::run_job(
+                                               folder, std::cout, [] { return stop_flag != 0; });
     if (!outcome.message.empty()) words << outcome.message << '\n';
     code = outcome.status == RunOutcome::Status::ok            ? ok
            : outcome.status == RunOutcome::Status::interrupted ? interrupted
@@ -102,10 +103,14 @@ int main(int argc, char** argv) {
   start_without_network();
   if (argc == 5 && std::strcmp(argv[1], "--triangles") == 0)
     return write_triangles(argv[2], argv[3], argv[4]);
-  if (argc != 2 || std::strcmp(argv[1], "--help") == 0) {
+  const bool only_cost = argc == 3 && std::strcmp(argv[1], "--cost") == 0;
+  if ((argc != 2 && !only_cost) || std::strcmp(argv[1], "--help") == 0) {
     std::cerr
         << "usage: fingertip-fem RUN_FOLDER\n"
            "Presses the continuum as RUN_FOLDER/job.json says and writes the results beside it.\n"
+           "       fingertip-fem --cost RUN_FOLDER\n"
+           "Makes its first mesh and tells the unknowns, time and memory that the press will "
+           "take.\n"
            "       fingertip-fem --triangles CAD_FILE STL_FILE UP\n"
            "Writes the surface of a solid in a STEP or BREP file as triangles; UP (\"+z\", \"-y\", "
            "...) points to what touches first.\n";
@@ -115,5 +120,5 @@ int main(int argc, char** argv) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv);
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
-  return carry_out(argv[1]);
+  return carry_out(argv[argc - 1], only_cost);
 }

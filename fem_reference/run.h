@@ -18,4 +18,9 @@ namespace fingertip::fem_reference {
 RunOutcome run_job(const std::filesystem::path& folder, std::ostream& progress,
                    const std::function<bool()>& stop_requested);
 
+/// What the press of `folder`/job.json (analysis static) will take, from its first mesh, which is
+/// written there: {"unknowns" of that mesh, "time" [s], "memory" [byte]}. Not converged where there
+/// is no mesh. Throws as run_job.
+RunOutcome tell_cost(const std::filesystem::path& folder, std::ostream& out);
+
 }  // namespace fingertip::fem_reference

@@ -8,6 +8,8 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <memory>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "meshes/base/blas.h"
@@ -83,6 +85,50 @@ struct Contribution {
       : matrix(unsigned(unknowns), unsigned(unknowns)), force(unsigned(unknowns)) {}
 };
 
+/// Sums the matrices of elements up in a global one. deal.II searches a row for each of their
+/// entries; where all rows are this process' and no unknown is constrained, a walk along the row
+/// meets all of them.
+class MatrixSum {
+ public:
+  MatrixSum(const dealii::AffineConstraints<double>& constraints, SparseMatrix& matrix)
+      : constraints_(constraints),
+        matrix_(matrix),
+        is_whole_(matrix.trilinos_matrix().Comm().NumProc() == 1) {
+    matrix = 0.0;
+  }
+
+  void add(const dealii::FullMatrix<double>& element, const std::vector<global_dof_index>& dofs) {
+    if (!is_whole_ || std::ranges::any_of(dofs, [this](global_dof_index i) {
+          return constraints_.is_constrained(i);
+        })) {
+      constraints_.distribute_local_to_global(element, dofs, matrix_);
+      return;
+    }
+    order_.resize(dofs.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::ranges::sort(order_, {}, [&](unsigned i) { return dofs[i]; });
+    for (const unsigned i : order_) {
+      int size = 0;
+      double* value = nullptr;
+      int* column = nullptr;
+      matrix_.trilinos_matrix().ExtractMyRowView(int(dofs[i]), size, value, column);
+      int entry = 0;
+      for (const unsigned j : order_) {
+        while (column[entry] != int(dofs[j])) ++entry;
+        value[entry] += element(i, j);
+      }
+    }
+  }
+
+  void finish() { matrix_.compress(dealii::VectorOperation::add); }
+
+ private:
+  const dealii::AffineConstraints<double>& constraints_;
+  SparseMatrix& matrix_;
+  bool is_whole_;
+  std::vector<unsigned> order_;  ///< of an element's unknowns, by their global numbers
+};
+
 void start_sums(LinearSystem& system) {
   system.force.compress(dealii::VectorOperation::add);  // what a failed assembly left behind
   system.force = 0.0;
@@ -156,9 +202,10 @@ void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const V
 template <int dim>
 void assemble(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
               LinearSystem& system) {
-  system.matrix = 0.0;
-  const bool with_coarse = system.coarse_matrix.m() > 0;
-  if (with_coarse) system.coarse_matrix = 0.0;
+  MatrixSum sum(body.fine.constraints, system.matrix);
+  std::optional<MatrixSum> coarse_sum;
+  if (system.coarse_matrix.m() > 0)
+    coarse_sum.emplace(body.coarse.constraints, system.coarse_matrix);
   dealii::FullMatrix<double> embedding(body.fine.element.n_dofs_per_cell(),
                                        body.coarse.element.n_dofs_per_cell());
   dealii::FETools::get_interpolation_matrix(body.coarse.element, body.fine.element, embedding);
@@ -174,20 +221,19 @@ void assemble(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& d
                        const dealii::Vector<double>& force, const ElementSystem& element) {
                      add_sums(element, system);
                      cell->get_dof_indices(fine);
-                     body.fine.constraints.distribute_local_to_global(matrix, force, fine,
-                                                                      system.matrix, system.force);
-                     if (!with_coarse) return;
+                     body.fine.constraints.distribute_local_to_global(force, fine, system.force);
+                     sum.add(matrix, fine);
+                     if (!coarse_sum) return;
                      Eigen::Map<Dense>(&restricted(0, 0), sparse.cols(), sparse.cols()) =
                          sparse.transpose() *
                          (Eigen::Map<const Dense>(&matrix(0, 0), matrix.m(), matrix.n()) * sparse);
                      const CellIterator<dim> other(&body.triangulation, cell->level(),
                                                    cell->index(), &body.coarse.dofs);
                      other->get_dof_indices(coarse);
-                     body.coarse.constraints.distribute_local_to_global(restricted, coarse,
-                                                                        system.coarse_matrix);
+                     coarse_sum->add(restricted, coarse);
                    });
-  system.matrix.compress(dealii::VectorOperation::add);
-  if (with_coarse) system.coarse_matrix.compress(dealii::VectorOperation::add);
+  sum.finish();
+  if (coarse_sum) coarse_sum->finish();
   finish_sums(body.fine.communicator, system);
 }
 

@@ -80,6 +80,7 @@ Body<dim>::Body(MPI_Comm communicator, int degree)
 
 template <int dim>
 void Body<dim>::number(const std::vector<FixedComponent>& fixed) {
+  mapping.initialize(dealii::MappingQ<dim>(unsigned(degree())), triangulation);
   fine.number(fixed);
   coarse.number(fixed);
 }

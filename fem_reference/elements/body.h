@@ -10,7 +10,7 @@
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -69,7 +69,8 @@ struct Space {
 template <int dim>
 class Body {
  public:
-  /// An empty mesh; fill `triangulation`, then call `number`. `degree` is 1, 2 or 3.
+  /// An empty mesh; fill `triangulation`, then call `number`, and again when it has changed.
+  /// `degree` is 1, 2 or 3.
   Body(MPI_Comm communicator, int degree);
 
   void number(const std::vector<FixedComponent>& fixed);
@@ -80,7 +81,8 @@ class Body {
   Triangulation<dim> triangulation;
   /// Of the element's degree, so that linear displacements are reproduced exactly on curved
   /// elements, and with the manifolds the surface's error falls as fast as the displacement's.
-  dealii::MappingQ<dim> mapping;
+  /// Its points are found by `number`, once for a mesh: on surfaces of CAD parts they are dear.
+  dealii::MappingQCache<dim> mapping;
   Space<dim> fine, coarse;
 };
 

@@ -85,6 +85,12 @@ class PressRun : Run {
         work_(job, places_.size(), fewest_meshes),
         history_(empty_history()) {}
 
+  /// Before anything but the mesh is made.
+  PressCost cost() {
+    const double unknowns = begin();
+    return {unknowns, work_.expected(0.0)};
+  }
+
   RunOutcome carry_out() {
     const RunOutcome outcome = outcome_of([&] { compute(); });
     write_tables(outcome);
@@ -98,10 +104,7 @@ class PressRun : Run {
  private:
   /// Every mesh in turn, until one is good enough.
   void compute() {
-    progress_.report("mesh", 0, 1, "meshing the tip");
-    make_mesh();
-    work_.begin(
-        expected_unknowns(job_, double(mesh_quality_.hexahedra), double(mesh_quality_.nodes)));
+    begin();
     report("assemble", 0, 1, "assembling the first mesh");
     const auto made = ContinuumPress::on(job_, folder_ / "tip.msh", stop_requested_);
     ContinuumPress& press = *made;
@@ -165,6 +168,16 @@ class PressRun : Run {
                        "doubled steps: F = " + to_text(doubled) + " N");
     }
     history_.set_step_errors(std::move(errors));
+  }
+
+  /// Makes the first mesh; its unknowns, roughly.
+  double begin() {
+    progress_.report("mesh", 0, 1, "meshing the tip");
+    make_mesh();
+    const double unknowns =
+        expected_unknowns(job_, double(mesh_quality_.hexahedra), double(mesh_quality_.nodes));
+    work_.begin(unknowns);
+    return unknowns;
   }
 
   void make_mesh() {
@@ -336,6 +349,12 @@ class PressRun : Run {
 };
 
 }  // namespace
+
+PressCost press_cost(const fs::path& folder, const ReferenceJob& job) {
+  std::ostringstream unread;
+  const std::function<bool()> never = [] { return false; };
+  return PressRun(folder, job, unread, never).cost();
+}
 
 RunOutcome run_press(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
                      const std::function<bool()>& stop_requested) {

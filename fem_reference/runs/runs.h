@@ -19,6 +19,16 @@ namespace fingertip::fem_reference::inline runs {
 RunOutcome run_press(const std::filesystem::path& folder, const ReferenceJob& job,
                      std::ostream& progress, const std::function<bool()>& stop_requested);
 
+/// What such a press will take, as far as its first mesh tells.
+struct PressCost {
+  double unknowns = 0.0;  ///< of the first mesh
+  Expected expected;      ///< of all meshes that are sure
+};
+
+/// Makes the first mesh of a press, `folder`/tip.msh, and nothing else. One process. Throws
+/// NotConverged where there is no mesh.
+PressCost press_cost(const std::filesystem::path& folder, const ReferenceJob& job);
+
 /// Analysis::modes. Writes tip.msh, modes.csv (`mode,frequency [Hz],frequency_error
 /// [Hz],symmetry,multiplicity`), fields and summary.json.
 ///

@@ -11,18 +11,20 @@
 namespace fingertip::fem_reference::inline solvers {
 namespace {
 
-/// Above this many unknowns the factor outgrows a desktop's memory (4.4 GB peak at 240 000; at large
-/// strain 3.9 GB at 275 000), and multigrid takes over, which is as fast there.
+/// Above this many unknowns the factor outgrows a desktop's memory (4.4 GB peak at 240 000; at
+/// large strain 3.9 GB at 275 000), and multigrid takes over, which is as fast there.
 constexpr double largest_condensed = 300000, largest_eliminated = 250000;
 
-/// Of 1000 unknowns [s]: assembled and factored by sparse Cholesky, which grows with the power
-/// below; by the iterations of the contact on a matrix that is factored; by multigrid, and one of
-/// Newton's systems by it.
-constexpr double factor_time = 0.0072, factor_power = 1.33, contact_time = 0.001,
-                 multigrid_time = 0.18, newton_multigrid_time = 0.025;
-/// Factorisations, or solutions by multigrid, of one sample at large strain: in one step, and in
-/// the small ones that remember where nodes touch and how they slide.
-constexpr double newton_steps = 4.0, newton_steps_remembering = 25.0;
+/// Of 1000 unknowns [s]: refined, numbered and looked at afterwards; factored by sparse Cholesky;
+/// by the iterations of the contact on a matrix that is factored; one of Newton's systems by
+/// Cholesky, whose factor serves several; by multigrid, and one of Newton's systems by it. Two of
+/// them grow with the powers below.
+constexpr double mesh_time = 0.03, factor_time = 0.0072, factor_power = 1.33, contact_time = 0.004,
+                 newton_time = 0.0075, newton_power = 1.1, multigrid_time = 0.18,
+                 newton_multigrid_time = 0.025;
+/// Newton's systems of one sample at large strain: in one step; in those on the way of the first
+/// mesh, on which nodes touch and stick; in the small ones in which they slide.
+constexpr double newton_steps = 4.0, newton_steps_on_the_way = 10.0, newton_steps_sliding = 40.0;
 /// Of the unknowns, from one mesh to the next where half of the error is refined: 1.05 to 1.4 for a
 /// solid, whose first mesh its shape makes fine; else 1.4 to 3.
 constexpr double usual_growth_of_solid = 1.2, usual_growth = 2.0;
@@ -61,19 +63,18 @@ LinearSolver choose_solver(const ReferenceJob& job, double unknowns) {
 SolutionCost solution_cost(const ReferenceJob& job, double unknowns, bool first_mesh) {
   using meshes::ContactMode;
   const ContactMode contact = job.protocol.contact;
-  const bool remembers = contact == ContactMode::coulomb ||
-                         (contact == ContactMode::stick && (first_mesh || !job.estimate_error));
-  const double steps = remembers ? newton_steps_remembering : newton_steps;
-  const double thousands = 1e-3 * unknowns;
-  const double factor = factor_time * std::pow(thousands, factor_power);
+  const bool finds_the_way = contact == ContactMode::stick && (first_mesh || !job.estimate_error);
+  const double steps = contact == ContactMode::coulomb ? newton_steps_sliding
+                       : finds_the_way                 ? newton_steps_on_the_way
+                                                       : newton_steps;
+  const double thousands = 1e-3 * unknowns, mesh = mesh_time * thousands;
   const bool finite = job.strain == Strain::finite;
   if (choose_solver(job, unknowns) == LinearSolver::multigrid)
-    return {contact_time * thousands,
-            (finite ? steps * newton_multigrid_time : multigrid_time) * thousands,
+    return {mesh, (finite ? steps * newton_multigrid_time : multigrid_time) * thousands,
             base_memory + multigrid_memory_per_unknown * unknowns};
   const double memory = base_memory + memory_per_unknown * unknowns;
-  if (finite) return {contact_time * thousands, steps * factor, memory};
-  return {factor, contact_time * thousands, memory};
+  if (finite) return {mesh, steps * newton_time * std::pow(thousands, newton_power), memory};
+  return {mesh + factor_time * std::pow(thousands, factor_power), contact_time * thousands, memory};
 }
 
 double expected_unknowns(const ReferenceJob& job, double cells, double corners) {

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "meshes/base/blas.h"
 #include "meshes/base/errors.h"
 
 /// LAPACK: inverse from a Cholesky factor, in place.
@@ -144,6 +145,7 @@ SparseFactor::~SparseFactor() = default;
 void SparseFactor::factorise(const UpperTriangle& upper) {
   cholmod_common& common = implementation_->workspace.common;
   cholmod_sparse matrix = view(upper, true);
+  const meshes::OneOpenMpThread one_thread;
   if (!cholmod_l_factorize(&matrix, implementation_->factor.get(), &common) ||
       common.status != CHOLMOD_OK)
     throw meshes::NotConverged(
@@ -161,6 +163,7 @@ Eigen::MatrixXd SparseFactor::solve_columns(const Eigen::MatrixXd& b) const {
   right.x = const_cast<double*>(b.data());
   right.xtype = CHOLMOD_REAL;
   right.dtype = CHOLMOD_DOUBLE;
+  const meshes::OneBlasThread one_thread;  // others wait for the memory, as this one does
   const auto solution = self.workspace.own(
       cholmod_l_solve(CHOLMOD_A, self.factor.get(), &right, &self.workspace.common));
   return Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(solution->x), b.rows(), b.cols());

@@ -144,7 +144,7 @@ class BoundarySides {
  public:
   BoundarySides(Body<3>& body, TurnedParts<3> boundary, dealii::types::manifold_id first_free)
       : triangulation_(body.triangulation),
-        mapping_(body.mapping),
+        mapping_(unsigned(body.degree())),
         boundary_(std::move(boundary)),
         next_(first_free) {}
 
@@ -297,7 +297,7 @@ class BoundarySides {
   }
 
   Triangulation<3>& triangulation_;
-  const dealii::MappingQ<3>& mapping_;
+  const dealii::MappingQ<3> mapping_;
   TurnedParts<3> boundary_;
   dealii::types::manifold_id next_;
   int round_ = 0;

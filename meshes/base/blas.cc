@@ -23,6 +23,17 @@ struct OpenBlas {
   void (*choose_kernels)() = symbol<void()>("gotoblas_dynamic_init");
 };
 
+/// Empty where no library of the program uses it.
+struct OpenMp {
+  void (*set_levels)(int) = symbol<void(int)>("omp_set_max_active_levels");
+  int (*get_levels)() = symbol<int()>("omp_get_max_active_levels");
+};
+
+const OpenMp& open_mp() {
+  static const OpenMp found;
+  return found;
+}
+
 const OpenBlas& open_blas() {
   static const OpenBlas found;
   return found;
@@ -64,6 +75,16 @@ OneBlasThread::OneBlasThread() {
 
 OneBlasThread::~OneBlasThread() {
   if (before_ > 0) open_blas().set_threads(before_);
+}
+
+OneOpenMpThread::OneOpenMpThread() {
+  if (open_mp().set_levels == nullptr || open_mp().get_levels == nullptr) return;
+  before_ = open_mp().get_levels();
+  open_mp().set_levels(0);
+}
+
+OneOpenMpThread::~OneOpenMpThread() {
+  if (before_ >= 0) open_mp().set_levels(before_);
 }
 
 }  // namespace fingertip::meshes::inline base

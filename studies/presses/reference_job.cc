@@ -1,9 +1,16 @@
 #include "studies/presses/reference_job.h"
 
+#include <unistd.h>
+
+#include "meshes/base/errors.h"
+#include "meshes/base/text_file.h"
 #include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
 #include "source_hash.h"
+#include "studies/files/json_entry.h"
 #include "studies/files/places.h"
+#include "studies/files/process.h"
+#include "studies/jobs/fem_launch.h"
 #include "studies/jobs/fem_process.h"
 #include "studies/presses/press_record.h"
 
@@ -57,6 +64,23 @@ Job reference_job(const fem_reference::ReferenceJob& reference) {
     fs::remove_all(folder / "checkpoint");  // of use to an unfinished job alone
   };
   return job;
+}
+
+ReferenceCost expected_cost(const fem_reference::ReferenceJob& reference) {
+  const fs::path folder =
+      fs::temp_directory_path() / ("fingertip-cost-" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  fem_reference::write_job(reference, folder / "job.json");
+  Command command = fem_command(reference_program(), folder, 1, 1);
+  command.words.insert(command.words.end() - 1, "--cost");
+  const int code = run_process(command, folder / "words");
+  const std::string words = meshes::read_text(folder / "words");
+  fs::remove_all(folder);
+  const std::size_t told = words.rfind('{');  // what MPI has to say stands before it
+  if (code != 0 || told == words.npos)
+    throw meshes::NotConverged(words.substr(0, words.find_last_not_of('\n') + 1));
+  const auto cost = ordered_json::parse(words.substr(told));
+  return {number_of(cost["unknowns"]), number_of(cost["time"]), number_of(cost["memory"])};
 }
 
 Job verification_job() {

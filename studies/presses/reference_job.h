@@ -12,6 +12,17 @@ namespace fingertip::studies::inline presses {
 /// it goes on when it is run again in the same folder.
 Job reference_job(const fem_reference::ReferenceJob& reference);
 
+/// What fingertip-fem expects of a static press from its first mesh, which takes a second or two.
+struct ReferenceCost {
+  double unknowns = 0.0;  ///< of the first mesh
+  double time = 0.0;      ///< until the press is done [s]
+  double memory = 0.0;    ///< peak [byte]
+};
+
+/// Throws InvalidInput where the program is missing, NotConverged with its words where it refuses
+/// the job or cannot mesh the finger.
+ReferenceCost expected_cost(const fem_reference::ReferenceJob& reference);
+
 /// The continuum's code against analytic solutions. Files: job.json, summary.json,
 /// verification.json.
 Job verification_job();

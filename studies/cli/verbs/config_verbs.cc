@@ -5,10 +5,12 @@
 #include "studies/cli/command_line/shell_texts.h"
 #include "studies/cli/verbs/verbs.h"
 #include "studies/config/documents.h"
+#include "studies/files/places.h"
 #include "studies/fits/runs/calibration_stages.h"
 #include "studies/fits/runs/law_job.h"
 #include "studies/jobs/provenance.h"
 #include "studies/presses/press_setup.h"
+#include "studies/presses/reference_job.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
 
@@ -22,6 +24,22 @@ std::vector<std::string> notes_on_data(const LoadedConfig& loaded) {
     return law_input(loaded).tests.notes;
   if (calibration.data.empty()) return {};
   return CalibrationStages(loaded, "", CalibrationStages::Failed::kept).notes();
+}
+
+/// What a solid's continuum will take. Bodies of revolution take a second or two.
+std::string note_on_continuum(const LoadedConfig& loaded) {
+  const fem_reference::ReferenceJob reference = continuum_setup(loaded);
+  if (reference.axisymmetric() || reference.analysis != fem_reference::Analysis::static_press ||
+      !std::filesystem::exists(reference_program()))
+    return "";
+  try {
+    const ReferenceCost cost = expected_cost(reference);
+    return fmt::format(
+        "the continuum takes at least some {} and {:.2g} GB, from {:.0f} unknowns on",
+        rough_duration(cost.time), 1e-9 * cost.memory, cost.unknowns);
+  } catch (const meshes::NotConverged& failure) {
+    return std::string("the continuum cannot press it: ") + failure.what();
+  }
 }
 
 }  // namespace
@@ -48,6 +66,8 @@ int run_check(const CommandLine& line) {
     const double memory = equilibrium_memory(complete.config.press);
     if (memory > shown_memory)
       fmt::print("{}: note: a press at rest takes some {:.2g} GB\n", file, 1e-9 * memory);
+    if (const std::string note = note_on_continuum(complete); !note.empty())
+      fmt::print("{}: note: {}\n", file, note);
     fmt::print("{}: OK\n", file);
   }
   return 0;

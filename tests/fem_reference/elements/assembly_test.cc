@@ -250,9 +250,41 @@ TEST_P(Assembly, AnElementOfTheMeshThatIsTurnedInsideOutIsTold) {
   const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
   const auto cell = body->triangulation.begin_active();
   std::swap(cell->vertex(0), cell->vertex(7));
+  body->number(fem_reference::tip_supports<3>());
   HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::mean_dilatation);
   LinearSystem system(*body, false);
   EXPECT_THROW(assemble(*body, kernel, body->fine.vector(), system), meshes::NotConverged);
+}
+
+/// The sum of elements without constrained unknowns takes a way of its own.
+TEST_P(Assembly, SumsElementsLikeTheirConstraints) {
+  const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
+  const Space<3>& space = body->fine;
+  HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::mean_dilatation);
+  LinearSystem system(*body, false);
+  const Vector u = interpolate(*body, space, [](const dealii::Point<3>& x) {
+    return Eigen::Vector3d(x[2] * x[1], 3 * x[0] * x[2], 5 * x[2] * x[2]);
+  });
+  assemble(*body, kernel, u, system);
+  auto expected = space.matrix();
+  std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
+  int cells = 0, free_cells = 0;
+  for_each_element(*body, kernel, u,
+                   [&](const auto& cell, const auto& matrix, const auto&, const auto&) {
+                     cell->get_dof_indices(indices);
+                     space.constraints.distribute_local_to_global(matrix, indices, expected);
+                     ++cells;
+                     if (std::ranges::none_of(
+                             indices, [&](auto i) { return space.constraints.is_constrained(i); }))
+                       ++free_cells;
+                   });
+  expected.compress(dealii::VectorOperation::add);
+  const auto count = [](int own) { return dealii::Utilities::MPI::sum(own, MPI_COMM_WORLD); };
+  EXPECT_GT(count(free_cells), 10);
+  EXPECT_LT(count(free_cells), count(cells) - 10);
+  const double size = expected.frobenius_norm();
+  expected.add(-1.0, system.matrix);
+  EXPECT_LT(expected.frobenius_norm(), 1e-14 * size);
 }
 
 INSTANTIATE_TEST_SUITE_P(Degrees, Assembly, ::testing::Values(1, 2, 3));

@@ -147,6 +147,32 @@ TEST(ReferenceRun, LeavesACompleteFolder) {
   EXPECT_EQ(press->at("left"), 0.0);
 }
 
+/// What `fingertip check` tells.
+TEST(ReferenceRun, TellsItsCostFromItsFirstMesh) {
+  const TemporaryFolder parent;
+  const fs::path folder = run_folder(parent, "cost", small_job());
+  FemProgram teller(folder, {"--cost", folder.string()});
+  ASSERT_EQ(teller.wait(), 0);
+  EXPECT_EQ(teller.errors(), "");
+  EXPECT_EQ(count_files(folder), 2u);  // the job and its mesh
+  ASSERT_EQ(carry_out(folder), 0);
+  const json told = json::parse(teller.output()), summary = summary_of(folder);
+  EXPECT_NEAR(double(told.at("unknowns")) / double(summary.at("meshes")[0].at("dofs")), 1.0, 0.15);
+  EXPECT_NEAR(std::log2(double(told.at("memory")) / double(summary.at("peak_memory"))), 0.0, 1.0);
+  EXPECT_GT(told.at("time"), 0.0);
+}
+
+TEST(ReferenceRun, TellsNoCostOfAnotherAnalysis) {
+  const TemporaryFolder parent;
+  ReferenceJob job = small_job();
+  job.analysis = fem_reference::Analysis::modes;
+  const fs::path folder = run_folder(parent, "modes", job);
+  FemProgram teller(folder, {"--cost", folder.string()});
+  EXPECT_EQ(teller.wait(), 2);
+  EXPECT_NE(teller.errors().find("static"), std::string::npos) << teller.errors();
+  EXPECT_EQ(count_files(folder), 1u);
+}
+
 TEST(ReferenceRun, OneMeshIsEnoughWhenNoErrorIsWanted) {
   const TemporaryFolder parent;
   ReferenceJob job = small_job();

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <filesystem>
 #include <random>
 
 #include "fem_reference/contact/growing_cholesky.h"
@@ -116,6 +117,30 @@ TEST(SparseFactor, RefusesAMatrixThatIsNotPositiveDefiniteAndGoesOn) {
   factor.factorise(upper_triangle(good));
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(unknowns);
   EXPECT_LT((good * factor.solve(b) - b).norm(), 1e-12 * b.norm());
+}
+
+/// Threads of CHOLMOD's own would wait for those of BLAS.
+TEST(SparseFactor, FactorisesOnTheThreadThatAsks) {
+  const auto threads = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+  };
+  const auto before = threads();
+  constexpr long size = 300;
+  UpperTriangle full;
+  std::vector<long> group;
+  full.start.push_back(0);
+  for (long column = 0; column < size; ++column) {
+    group.push_back(column);
+    for (long row = 0; row <= column; ++row) {
+      full.row.push_back(row);
+      full.value.push_back(row == column ? 1.0 + size : 1.0);
+    }
+    full.start.push_back(long(full.row.size()));
+  }
+  SparseFactor factor(full, group, {0, size / 2});
+  factor.factorise(full);
+  EXPECT_NEAR(factor.solve(Eigen::VectorXd::Ones(size))[7], 1.0 / (2 * size), 1e-15);
+  EXPECT_EQ(threads(), before);
 }
 
 Eigen::MatrixXd random_positive_definite(int n, unsigned seed) {

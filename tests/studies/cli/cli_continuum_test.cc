@@ -84,6 +84,13 @@ TEST_F(Continuum, ErrorBarsWiderThanAskedInTimeEndWithThree) {
   }
 }
 
+TEST_F(Continuum, CheckTellsWhatASolidTakes) {
+  folder_.run("init check.toml");
+  EXPECT_FALSE(says(folder_.run("check check.toml").out, "the continuum"));  // a second
+  const std::string told = folder_.run("check check.toml", {"press.tilt=5 deg"}).out;
+  EXPECT_TRUE(says(told, {"note: the continuum takes at least some ", " GB, from ", " unknowns on", "OK"}));
+}
+
 TEST_F(Continuum, KilledAndResumedGivesTheSameForces) {
   kill_and_resume(false);
 }
