@@ -118,7 +118,9 @@ int main(int argc, char** argv) {
   }
   // Elements are integrated by all the processors, or a process' share of them.
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv);
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  if (!only_cost) {  // a mesh is not stopped on the way
+    std::signal(SIGINT, request_stop);
+    std::signal(SIGTERM, request_stop);
+  }
   return carry_out(argv[argc - 1], only_cost);
 }

@@ -40,7 +40,8 @@ class OneBlasThread {
 
 /// OpenMP's parallel regions run on the thread that meets them while it lives. For CHOLMOD, which
 /// opens four threads for each of its supernodes, however small, beside those of BLAS: they wait
-/// for each other, and a press of a solid took 1.3 times as long.
+/// for each other, and a press of a solid took 1.3 times as long. A BLAS whose own threads are
+/// OpenMP's has one, too.
 class OneOpenMpThread {
  public:
   OneOpenMpThread();

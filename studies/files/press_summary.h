@@ -148,6 +148,17 @@ consteval auto fields_of(const StageEntry*) {
       .if_known("speed");
 }
 
+/// Where the error of the forces is from, or why there is none, and how large it is.
+struct ForceErrorEntry {
+  std::string statement;
+  /// Over the force, where it is largest among the asked depths [m].
+  double largest = meshes::unknown, indentation = meshes::unknown;
+};
+consteval auto fields_of(const ForceErrorEntry*) {
+  return FINGERTIP_ALL_MEMBERS(ForceErrorEntry, statement, largest, indentation)
+      .if_known("largest indentation");
+}
+
 /// summary.json of `press`.
 struct PressSummary {
   std::string model, kinematics, mode, contact, status;
@@ -174,6 +185,7 @@ struct PressSummary {
   double work_in = meshes::unknown, loop_area = meshes::unknown;
   TrackingEntry tracking;
   std::optional<EndEntry> end;
+  std::optional<ForceErrorEntry> force_error;
 
   bool empty() const { return model.empty(); }
   bool rests() const { return mode == "static"; }
@@ -186,13 +198,15 @@ consteval auto fields_of(const PressSummary*) {
                                static_census, effort, smallest_jacobian, simulated_time, wall_time,
                                real_time_factor, threads, first_touch_time, momentum_defect,
                                slowest_real_time_factor, scaling, warnings, program, work_in,
-                               loop_area, tracking, end)
+                               loop_area, tracking, end, force_error)
       .only(&PressSummary::moves,
             "moduli step census steps simulated_time real_time_factor threads first_touch_time "
             "momentum_defect")
       .only(&PressSummary::rests, "static_census effort smallest_jacobian")
       .only(&PressSummary::controlled, "tracking end")
-      .if_known("obstacle slowest_real_time_factor scaling warnings program work_in loop_area")
+      .if_known(
+          "obstacle slowest_real_time_factor scaling warnings program work_in loop_area "
+          "force_error")
       .called("static_census", "census");
 }
 

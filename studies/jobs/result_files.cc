@@ -79,12 +79,16 @@ void write_marker(nlohmann::ordered_json marker, const fs::path& folder) {
   meshes::write_json_file(marker, folder / marker_name);
 }
 
-void rewrite_result(const fs::path& folder, const std::string& name,
-                    const nlohmann::ordered_json& content) {
-  meshes::write_json_file(content, folder / name);
+void mark_rewritten(const fs::path& folder, const std::string& name) {
   auto marker = read_marker(folder);
   marker[files_entry][name] = sha256(meshes::read_text(folder / name));
   write_marker(std::move(marker), folder);
+}
+
+void rewrite_result(const fs::path& folder, const std::string& name,
+                    const nlohmann::ordered_json& content) {
+  meshes::write_json_file(content, folder / name);
+  mark_rewritten(folder, name);
 }
 
 }  // namespace fingertip::studies::inline jobs

@@ -35,7 +35,10 @@ nlohmann::ordered_json read_marker(const std::filesystem::path& folder);
 /// Writes it, with a digest of its own.
 void write_marker(nlohmann::ordered_json marker, const std::filesystem::path& folder);
 
-/// Writes a JSON file of the finished job in `folder` anew and has the marker know it.
+/// Has the marker know a file of the finished job in `folder` that has been written anew.
+void mark_rewritten(const std::filesystem::path& folder, const std::string& name);
+
+/// Writes a JSON file anew and marks it.
 void rewrite_result(const std::filesystem::path& folder, const std::string& name,
                     const nlohmann::ordered_json& content);
 

@@ -100,7 +100,9 @@ void CurveReader::choose_pair() {
 void CurveReader::choose_sigma() {
   if (source_.sigma > 0.0) return;
   auto index = columns_.find(*table_, "sigma");
-  own_error_ = !index && quantities_.y.name == "force" && source_.columns.empty();
+  // A lattice's is its distance from the continuum: no scatter.
+  const bool of_lattice = std::filesystem::exists(source_.path.parent_path() / "boundary.csv");
+  own_error_ = !index && quantities_.y.name == "force" && source_.columns.empty() && !of_lattice;
   if (own_error_) index = columns_.find(*table_, "force_error");
   if (index)
     sigma_ = columns_.column(*table_, *index,

@@ -39,8 +39,9 @@ struct MeasuredFile {
 /// - The pair is the first of `allowed` whose columns are both there, or what the source says.
 ///   `normal_force`, `load`, `kraft` ... are `force`; `travel`, `extension`, `weg` ... `position`.
 ///   Units are any of the right dimension (units.h), [1] alone where there is none.
-/// - `sigma`, in a unit of y, is the standard deviation of every y. Without it a `force_error`
-///   serves where it is known and positive in every row. Further columns are ignored with a note.
+/// - `sigma`, in a unit of y, is the standard deviation of every y. Without it a `force_error`,
+///   but of a lattice (`boundary.csv` stands beside it), serves where it is known and positive in
+///   every row. Further columns are ignored with a note.
 /// - Rows with indentation, time or shear <= 0 lie before the start and are left out with a note;
 ///   stretch and frequency must be positive.
 /// - A position may have any sign and stand still or tremble: then its rows are averaged as below.

@@ -44,6 +44,22 @@ ordered_json inputs_of(const fem_reference::ReferenceJob& reference) {
   return inputs;
 }
 
+/// Gone with its content when the object is.
+struct ScratchFolder {
+  ScratchFolder()
+      : path(fs::temp_directory_path() / ("fingertip-cost-" + std::to_string(::getpid()))) {
+    fs::create_directories(path);
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  fs::path path;
+};
+
 }  // namespace
 
 Job reference_job(const fem_reference::ReferenceJob& reference) {
@@ -66,20 +82,19 @@ Job reference_job(const fem_reference::ReferenceJob& reference) {
   return job;
 }
 
-ReferenceCost expected_cost(const fem_reference::ReferenceJob& reference) {
-  const fs::path folder =
-      fs::temp_directory_path() / ("fingertip-cost-" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  fem_reference::write_job(reference, folder / "job.json");
-  Command command = fem_command(reference_program(), folder, 1, 1);
+ReferenceCost expected_cost(const fem_reference::ReferenceJob& reference,
+                            const std::function<bool()>& stop) {
+  const ScratchFolder scratch;
+  fem_reference::write_job(reference, scratch.path / "job.json");
+  Command command = fem_command(reference_program(), scratch.path, 1, 1);
   command.words.insert(command.words.end() - 1, "--cost");
-  const int code = run_process(command, folder / "words");
-  const std::string words = meshes::read_text(folder / "words");
-  fs::remove_all(folder);
-  const std::size_t told = words.rfind('{');  // what MPI has to say stands before it
-  if (code != 0 || told == words.npos)
+  const int code = run_process(command, scratch.path / "words", stop);
+  const std::string words = meshes::read_text(scratch.path / "words");
+  // MPI may speak before and after.
+  const std::size_t begin = words.find("{\""), end = words.find('}', begin);
+  if (code != 0 || begin == words.npos || end == words.npos)
     throw meshes::NotConverged(words.substr(0, words.find_last_not_of('\n') + 1));
-  const auto cost = ordered_json::parse(words.substr(told));
+  const auto cost = ordered_json::parse(words.substr(begin, end + 1 - begin));
   return {number_of(cost["unknowns"]), number_of(cost["time"]), number_of(cost["memory"])};
 }
 

@@ -20,8 +20,9 @@ struct ReferenceCost {
 };
 
 /// Throws InvalidInput where the program is missing, NotConverged with its words where it refuses
-/// the job or cannot mesh the finger.
-ReferenceCost expected_cost(const fem_reference::ReferenceJob& reference);
+/// the job or cannot mesh the finger, Interrupted once `stop` says so.
+ReferenceCost expected_cost(const fem_reference::ReferenceJob& reference,
+                            const std::function<bool()>& stop = {});
 
 /// The continuum's code against analytic solutions. Files: job.json, summary.json,
 /// verification.json.

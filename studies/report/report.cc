@@ -221,7 +221,7 @@ class PageMaker {
   Page press_page() {
     const std::vector<MovingPress> presses{own_press()};
     const MovingPress& press = presses.front();
-    const std::string forces = words([&] { return press_answer(press.response); });
+    const std::string forces = words([&] { return press_answer(press.response, press.summary); });
     return made(
         "Soft fingertip: a press under its controller",
         "A mass-spring fingertip pressed against a plane",
@@ -240,7 +240,7 @@ class PageMaker {
     const std::vector<MovingPress> presses{own_press()};
     return made("Soft fingertip: a press at rest",
                 "A mass-spring fingertip in equilibrium with what it touches",
-                [&] { return press_answer(run_.response); },
+                [&] { return press_answer(run_.response, presses.front().summary); },
                 {[&] { return press_chapter(run_.response, run_.contact); },
                  [&] { return program_chapter(run_.response, presses.front()); },
                  [&] { return sliding_chapter(run_.response); },
@@ -251,7 +251,7 @@ class PageMaker {
   Page reference_page() {
     return made(
         "Soft fingertip: the continuum", "A deal.II continuum pressed on its obstacle",
-        [&] { return press_answer(run_.reference); },
+        [&] { return press_answer(run_.reference, {}); },
         {[&] { return force_chapter(run_); }, [&] { return program_chapter(run_.reference, {}); },
          [&] { return sliding_chapter(run_.reference); }, [&] { return continuum_chapter(run_); },
          [&] { return pictures_chapter(run_); }, [&] { return cost_chapter(run_); }});

@@ -8,7 +8,9 @@
 #include "studies/files/places.h"
 #include "studies/fits/runs/calibration_stages.h"
 #include "studies/fits/runs/law_job.h"
+#include "studies/jobs/interrupt.h"
 #include "studies/jobs/provenance.h"
+#include "studies/presses/force_error.h"
 #include "studies/presses/press_setup.h"
 #include "studies/presses/reference_job.h"
 
@@ -26,25 +28,31 @@ std::vector<std::string> notes_on_data(const LoadedConfig& loaded) {
   return CalibrationStages(loaded, "", CalibrationStages::Failed::kept).notes();
 }
 
-/// What a solid's continuum will take. Bodies of revolution take a second or two.
+/// What a solid's continuum will take. Bodies of revolution take seconds.
 std::string note_on_continuum(const LoadedConfig& loaded) {
-  const fem_reference::ReferenceJob reference = continuum_setup(loaded);
-  if (reference.axisymmetric() || reference.analysis != fem_reference::Analysis::static_press ||
-      !std::filesystem::exists(reference_program()))
-    return "";
   try {
-    const ReferenceCost cost = expected_cost(reference);
+    const bool beside = loaded.config.force_error == ForceErrorBy::continuum;
+    const std::optional<fem_reference::ReferenceJob> reference =
+        beside ? error_source(loaded).continuum : continuum_setup(loaded);
+    if (!reference || reference->axisymmetric() ||
+        reference->analysis != fem_reference::Analysis::static_press ||
+        !std::filesystem::exists(reference_program()))
+      return "";
+    const ReferenceCost cost = expected_cost(*reference, interrupted);
     return fmt::format(
         "the continuum takes at least some {} and {:.2g} GB, from {:.0f} unknowns on",
         rough_duration(cost.time), 1e-9 * cost.memory, cost.unknowns);
-  } catch (const meshes::NotConverged& failure) {
-    return std::string("the continuum cannot press it: ") + failure.what();
+  } catch (const meshes::Interrupted&) {
+    throw;
+  } catch (const std::exception& failure) {
+    return std::string("what the continuum takes is not known: ") + failure.what();
   }
 }
 
 }  // namespace
 
 int run_check(const CommandLine& line) {
+  watch_for_interrupts();
   std::vector<std::string> files = line.arguments;
   if (!line.config.file.empty()) files.push_back(line.config.file.string());
   if (files.empty()) {

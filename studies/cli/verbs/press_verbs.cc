@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "fem_reference/job/run_tables.h"
+#include "meshes/base/cannot_write.h"
 #include "meshes/press/press_response.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/cli/command_line/real_time.h"
@@ -12,10 +14,12 @@
 #include "studies/cli/verbs/verbs.h"
 #include "studies/files/json_entry.h"
 #include "studies/files/mode_table.h"
+#include "studies/files/places.h"
 #include "studies/files/press_summary.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
 #include "studies/jobs/result_files.h"
+#include "studies/presses/force_error.h"
 #include "studies/presses/modes_job.h"
 #include "studies/presses/press_job.h"
 #include "studies/presses/press_notes.h"
@@ -30,8 +34,9 @@ namespace fingertip::studies::inline cli::inline verbs {
 
 namespace {
 
-/// The curve at the wanted depths, for a terminal.
-void print_depths(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
+/// The curve at the wanted depths.
+std::vector<meshes::PressSample> wanted_samples(const meshes::PressResponse& response,
+                                                const meshes::PressProtocol& protocol) {
   std::vector<meshes::PressSample> wanted;
   for (const double depth : protocol.samples) {
     const auto found =
@@ -40,12 +45,13 @@ void print_depths(const meshes::PressResponse& response, const meshes::PressProt
         });
     if (found != response.pressing().end()) wanted.push_back(*found);
   }
-  fmt::print("{}", report::table_text(report::sample_table(wanted, report::indentation())));
+  return wanted;
 }
 
 /// The curve at the wanted depths, and the lateral motion that followed, if one did.
 void print_response(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
-  print_depths(response, protocol);
+  fmt::print("{}", report::table_text(report::sample_table(wanted_samples(response, protocol),
+                                                           report::indentation())));
   if (response.sliding().empty()) return;
   fmt::print(
       "then along the plane at {}:\n{}", shown_units().length.text(response.depth()),
@@ -72,9 +78,9 @@ void print_frequencies(const std::filesystem::path& folder) {
 struct WorstError {
   double relative = 0.0, indentation = 0.0;
 };
-WorstError worst_error(const meshes::PressResponse& response) {
+WorstError worst_error(std::span<const meshes::PressSample> samples) {
   WorstError worst;
-  for (const meshes::PressSample& sample : response.samples()) {
+  for (const meshes::PressSample& sample : samples) {
     const double error = std::abs(sample.force_error / sample.normal_force);
     if (error > worst.relative || std::isnan(error)) worst = {error, sample.indentation};
     if (std::isnan(error)) break;
@@ -194,6 +200,63 @@ class ToldSummary {
   nlohmann::ordered_json content_;
 };
 
+constexpr const char* continuum_name = "continuum";
+
+/// The continuum's press for the error of a lattice's, or why it gave none. Whatever happens to it,
+/// the lattice's press stands.
+meshes::PressResponse continuum_beside(Session& session, ErrorSource& source) {
+  try {
+    if (!std::filesystem::exists(reference_program()))
+      throw std::runtime_error("fingertip-fem is not beside this program");
+    session.run({continuum_name, reference_job(*source.continuum), false});
+    return meshes::PressResponse::read_csv(session.folder().path() / continuum_name /
+                                           "response.csv");
+  } catch (const meshes::Interrupted&) {
+    throw;
+  } catch (const meshes::CannotWrite&) {
+    throw;
+  } catch (const std::exception& error) {
+    source.statement = std::string("not known: ") + error.what();
+    return {};
+  }
+}
+
+/// Gives a press that is done the error of its forces, as `run.error` says: the column force_error
+/// of its response.csv, force_error in its summary.json, a line for the screen.
+std::string find_force_error(ErrorSource source, const meshes::PressProtocol& protocol,
+                             Session& session, ToldSummary& told, meshes::PressResponse& response) {
+  const std::filesystem::path& folder = session.folder().path();
+  const meshes::PressResponse continuum =
+      source.continuum ? continuum_beside(session, source) : meshes::PressResponse();
+  // A run that is resumed may have had another error.
+  const bool had_error = std::ranges::any_of(
+      response.samples(),
+      [](const meshes::PressSample& sample) { return !std::isnan(sample.force_error); });
+  if (had_error || !continuum.empty()) {
+    response = with_force_error(response, continuum);
+    response.write_csv(folder / "response.csv");
+    mark_rewritten(folder, "response.csv");
+  }
+  if (source.statement.empty()) {
+    told.put("force_error", {});
+    return {};
+  }
+  ForceErrorEntry entry{source.statement};
+  std::string words = "force error " + source.statement;
+  std::vector<meshes::PressSample> known = wanted_samples(response, protocol);
+  std::erase_if(known, [](const meshes::PressSample& sample) {
+    return !std::isfinite(sample.force_error / sample.normal_force);
+  });
+  if (const WorstError worst = worst_error(known); worst.relative > 0.0) {
+    entry.largest = worst.relative;
+    entry.indentation = worst.indentation;
+    words += fmt::format(": at most {:.3g} %, at {}", 100.0 * worst.relative,
+                         shown_units().length.text(worst.indentation));
+  }
+  told.put("force_error", meshes::json_of<nlohmann::ordered_json>(entry));
+  return words + "\n";
+}
+
 }  // namespace
 
 int run_press(const CommandLine& line) {
@@ -214,6 +277,8 @@ int run_press(const CommandLine& line) {
   }
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const std::filesystem::path& folder = session.folder().path();
+    const ErrorSource source = error_source(loaded);
+    if (source.continuum) session.expect_later(reference_job(*source.continuum).weight);
     Job job = press_job(setup, line.movie);
     if (real_time) {
       real_time->write(folder);
@@ -223,11 +288,14 @@ int run_press(const CommandLine& line) {
     ToldSummary told(folder);
     told.put_warnings(warnings);
     const PressSummary summary = told.press();
-    const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+    auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+    session.expect_later(0.0);
+    const std::string error = find_force_error(source, setup.protocol, session, told, response);
     if (!line.quiet) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
       print_response(response, setup.protocol);
+      fmt::print("{}", error);
       print_press_facts(summary, result.reused);
       print_sources(loaded);
     }
@@ -278,7 +346,7 @@ int run_reference(const CommandLine& line) {
     const bool press = reference.analysis != fem_reference::Analysis::modes;
     const auto response =
         press ? meshes::PressResponse::read_csv(folder / "response.csv") : meshes::PressResponse();
-    const WorstError worst = worst_error(response);
+    const WorstError worst = worst_error(response.samples());
     const bool reached = !reference.estimate_error || !(worst.relative > reference.tolerance);
     if (!line.quiet) {
       fmt::print("{}\n", heading(reference));

@@ -183,6 +183,18 @@ constexpr auto names_of(ContinuumLaw) {
   return meshes::names<ContinuumLaw>({{a, "A"}, {b, "B"}, {c, "C"}});
 }
 
+/// How a lattice's press finds the error of its forces.
+enum class ForceErrorBy {
+  automatic,  ///< from the continuum where that takes seconds
+  continuum,  ///< from the continuum, whatever it takes
+  nothing,    ///< not at all
+};
+constexpr auto names_of(ForceErrorBy) {
+  using enum ForceErrorBy;
+  return meshes::names<ForceErrorBy>(
+      {{automatic, "auto"}, {continuum, "continuum"}, {nothing, "off"}});
+}
+
 /// Section [exchange]: what is handed to another program.
 struct ExchangeSettings {
   bool cube = false;            ///< a free cube instead of the fingertip
@@ -217,6 +229,7 @@ struct Config {
   LawCoefficients coefficients;                   ///< as given; press.rubber has the law
   /// Scaled masses where they keep to a press's force, else press.integrator as it stands.
   bool automatic_integrator = false;
+  ForceErrorBy force_error = ForceErrorBy::automatic;
   ContinuumLaw continuum_law = ContinuumLaw::a;
   fem_reference::ReferenceJob reference;  ///< but for specimen and protocol, see continuum()
   CalibrationSettings calibration;

@@ -214,6 +214,15 @@ std::vector<Key> run_keys() {
             "and way, under the built-in servo without noise; false: the whole tip, whose rod may "
             "tilt and sway",
             at(&Config::press, &lattice::PressSetup::symmetry)),
+      choice("run", "error",
+             {{"auto",
+               "from the continuum where that takes seconds: a body of revolution, pressed "
+               "straight"},
+              {"continuum", "from the continuum in the same press, of a solid, too"},
+              {"off", "not at all"}},
+             "how press finds the error of the lattice's forces (column force_error); no force "
+             "depends on it",
+             at(&Config::force_error)),
       choice("run", "units",
              {{"si", "mN, mm, kPa"}, {"paper", "gf, cm, gf/cm^2, as in the paper of 1996"}},
              "units of screens, pages, figures and the live view; files keep theirs, and no result "

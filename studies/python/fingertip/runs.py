@@ -89,7 +89,7 @@ class Response(Run):
 
     @property
     def force_error(self) -> np.ndarray:
-        """Estimated, of the continuum's force [N]; NaN where it is not known."""
+        """Estimated, of normal_force [N]; NaN where it is not known."""
         return self.samples["force_error"]
 
     @property

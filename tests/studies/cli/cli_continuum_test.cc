@@ -84,11 +84,58 @@ TEST_F(Continuum, ErrorBarsWiderThanAskedInTimeEndWithThree) {
   }
 }
 
+/// Of a lattice, from the continuum beside it.
+TEST_F(Continuum, GivesEveryForceOfALatticeItsError) {
+  const Words coarse = {"lattice.spacing=tip_radius/6", "press.depth=0.05 cm"};
+  const std::string told = folder_.run("press --out run", coarse).out;
+  EXPECT_TRUE(says(told, {"Estimated error",
+                          "force error from the continuum at small strain: at "
+                          "most "}));
+  const PressResponse lattice = folder_.response("run"),
+                      continuum = folder_.response("run/continuum");
+  ASSERT_FALSE(continuum.empty());
+  double largest = 0.0;
+  for (const auto& sample : continuum.samples()) {
+    const auto own = std::ranges::find_if(lattice.samples(), [&](const auto& other) {
+      return std::abs(other.indentation - sample.indentation) < 1e-9;
+    });
+    ASSERT_NE(own, lattice.samples().end());
+    EXPECT_NEAR(own->force_error,
+                std::abs(own->normal_force - sample.normal_force) + sample.force_error,
+                1e-9 * sample.normal_force);
+    largest = std::max(largest, own->force_error / own->normal_force);
+  }
+  EXPECT_NEAR(folder_.json("run/summary.json")["force_error"]["largest"].get<double>(), largest,
+              1e-12);
+  folder_.run("report run");
+  EXPECT_TRUE(says(folder_.text("run/report.html"), "from the continuum at small strain: at most"));
+
+  folder_.run("press --out run --resume auto", coarse);
+  EXPECT_EQ(folder_.response("run").samples().back().force_error,
+            lattice.samples().back().force_error);
+  EXPECT_TRUE(says(folder_.text("run/log.txt"), "kept from the resumed run"));
+  // What was found stays no longer than it is wanted.
+  for (const std::string run : {"off", "run"}) {
+    const ProgramResult off =
+        folder_.run("press --resume auto --set run.error=off --out " + run, coarse);
+    EXPECT_TRUE(omits(off.out, "error")) << off.out;
+    EXPECT_TRUE(std::isnan(folder_.response(run).samples().back().force_error));
+    EXPECT_FALSE(folder_.json(run + "/summary.json").contains("force_error"));
+  }
+  EXPECT_FALSE(folder_.has("off/continuum"));
+  // Nothing that happens to the continuum takes the press away.
+  const Words too_small = {"reference.max_unknowns=1000", "reference.tolerance=1e-5"};
+  const ProgramResult alone = folder_.run("press --out alone", coarse + too_small);
+  EXPECT_TRUE(says(alone.out, "force error not known: ")) << alone.out;
+  EXPECT_TRUE(std::isnan(folder_.response("alone").samples().back().force_error));
+}
+
 TEST_F(Continuum, CheckTellsWhatASolidTakes) {
   folder_.run("init check.toml");
   EXPECT_FALSE(says(folder_.run("check check.toml").out, "the continuum"));  // a second
   const std::string told = folder_.run("check check.toml", {"press.tilt=5 deg"}).out;
-  EXPECT_TRUE(says(told, {"note: the continuum takes at least some ", " GB, from ", " unknowns on", "OK"}));
+  EXPECT_TRUE(
+      says(told, {"note: the continuum takes at least some ", " GB, from ", " unknowns on", "OK"}));
 }
 
 TEST_F(Continuum, KilledAndResumedGivesTheSameForces) {

@@ -158,6 +158,10 @@ TEST_F(MeasuredData, MayBeAProgramsResponse) {
   ASSERT_EQ(file.notes.size(), 1U);
   EXPECT_TRUE(says(file.notes[0], "torque_x [N m]"));
 
+  // Of a lattice it is the distance from the continuum.
+  write_text(folder_ / "boundary.csv", "x [m]\n");
+  EXPECT_TRUE(read_measured({folder_ / "response.csv"}, every).at(0).curve.sigma.empty());
+
   const MeasuredFile part =
       read("indentation [m],normal_force [N],force_error [N]\n1e-4,1,0.1\n2e-4,2,\n3e-4,3,0\n");
   EXPECT_TRUE(part.curve.sigma.empty());

@@ -47,11 +47,34 @@ Panel curve_panel(SampleRange samples, const SampleColumn& over, const SampleCol
   return panel;
 }
 
+/// Every 2nd, 5th, 10th ... so that depths stay round, and the last one is among them.
+std::vector<meshes::PressSample> thinned(SampleRange samples) {
+  std::size_t every = 1;
+  for (const std::size_t step : {2, 5, 10, 20, 50, 100, 200, 500, 1000})
+    if ((samples.size() + every - 1) / every > max_rows) every = step;
+  std::vector<meshes::PressSample> some;
+  for (std::size_t i = (samples.size() - 1) % every; i < samples.size(); i += every)
+    some.push_back(samples[i]);
+  return some;
+}
+
+/// Error bars at the depths of the table, where errors are known.
+Series error_bars(SampleRange samples) {
+  Series bars{"", "estimated error", single.as_points()};
+  for (const meshes::PressSample& sample : thinned(samples)) {
+    if (std::isnan(sample.force_error)) continue;
+    bars.add(shown_units().length(sample.indentation), shown_units().force(sample.normal_force));
+    bars.error.push_back(shown_units().force(sample.force_error));
+  }
+  return bars;
+}
+
 /// Force of a whole program: the first loading, and then the way on from its end.
 Panel loop_panel(const meshes::PressResponse& response,
                  const std::vector<lattice::TraceRow>& trace) {
   const SampleRange loading = response.pressing();
   Panel panel = curve_panel(loading, indentation(), normal_force());
+  if (Series bars = error_bars(loading); !bars.x.empty()) panel.series.push_back(std::move(bars));
   if (response.following().empty()) return panel;
   Series then{"then", "then", {"#D55E00", "", 2.2, trace.empty() ? 7 : 0}};
   const auto add = [&then](const auto& row) {
@@ -81,17 +104,6 @@ bool significant(SampleRange samples, double meshes::PressSample::*force) {
   return std::ranges::any_of(samples, [force](const meshes::PressSample& sample) {
     return std::abs(sample.*force) > left * std::abs(sample.normal_force);
   });
-}
-
-/// Every 2nd, 5th, 10th ... so that depths stay round, and the last one is among them.
-std::vector<meshes::PressSample> thinned(SampleRange samples) {
-  std::size_t every = 1;
-  for (const std::size_t step : {2, 5, 10, 20, 50, 100, 200, 500, 1000})
-    if ((samples.size() + every - 1) / every > max_rows) every = step;
-  std::vector<meshes::PressSample> some;
-  for (std::size_t i = (samples.size() - 1) % every; i < samples.size(); i += every)
-    some.push_back(samples[i]);
-  return some;
 }
 
 void add_samples(ChapterData& chapter, SampleRange samples, const SampleColumn& over) {
@@ -180,6 +192,7 @@ Chapter press_chapter(const meshes::PressResponse& response, const std::vector<C
   const SampleColumn radius{"Contact radius", &meshes::PressSample::contact_radius,
                             shown_units().length};
   ChapterData chapter("press");
+  chapter["error"] = !error_bars(samples).x.empty();
   chapter.figures = {{"force_indentation", 760, 420, 1, {loop_panel(response, trace)}}};
   add_samples(chapter, samples, indentation());
   if (is_known(samples, radius))
@@ -210,13 +223,20 @@ Chapter sliding_chapter(const meshes::PressResponse& response) {
   return written(std::move(chapter));
 }
 
-std::string press_answer(const meshes::PressResponse& response) {
+std::string press_answer(const meshes::PressResponse& response, const PressSummary& summary) {
   TemplateData words;
-  for (const char* name : {"depth", "force", "radius", "moved", "held", "push"}) words[name] = "";
+  for (const char* name : {"depth", "force", "radius", "moved", "held", "push", "error", "largest"})
+    words[name] = "";
   if (response.empty()) return sentences("answer_press", words);
   const meshes::PressSample& last = response.pressing().back();
   words["depth"] = length(last.indentation);
   words["force"] = force(last.normal_force);
+  if (const auto& error = summary.force_error) {
+    words["error"] = error->statement;
+    if (std::isfinite(error->largest))
+      words["largest"] =
+          fmt::format("{:.2g} % at {}", 100.0 * error->largest, length(error->indentation));
+  }
   if (last.contact_radius > 0.0) words["radius"] = length(last.contact_radius);
   if (!response.sliding().empty()) {
     const meshes::PressSample& end = response.sliding().back();

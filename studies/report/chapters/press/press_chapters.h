@@ -47,8 +47,8 @@ Chapter program_chapter(const meshes::PressResponse& response, const PressFiles&
 Chapter real_time_chapter(const RealTimeRecord& record);
 /// The lateral motion that followed the press; without blocks when none did.
 Chapter sliding_chapter(const meshes::PressResponse& response);
-/// Its force at full depth in a sentence, and that at the end of a lateral motion in another.
-std::string press_answer(const meshes::PressResponse& response);
+/// Its force at full depth in a sentence, its error, and the force at the end of a lateral motion.
+std::string press_answer(const meshes::PressResponse& response, const PressSummary& summary);
 Table modes_table(const std::vector<VibrationMode>& modes);
 /// Frequencies and kinds of motion from modes.csv; without blocks when it is empty.
 Chapter modes_chapter(const std::vector<VibrationMode>& modes);

@@ -1,0 +1,32 @@
+/// The error of a lattice's forces: how far they are from the continuum's in the same press.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fem_reference/job/job.h"
+#include "meshes/press/press_response.h"
+#include "studies/config/loaded_config.h"
+
+namespace fingertip::studies::inline presses {
+
+/// Where the error comes from.
+struct ErrorSource {
+  /// The continuum's press at rest; empty: none.
+  std::optional<fem_reference::ReferenceJob> continuum;
+  /// "from the continuum at small strain", or why there is no error; empty where none is wanted.
+  std::string statement;
+};
+
+/// What `run.error` means for this press. The continuum's strain is the lattice's unless
+/// reference.strain is given.
+ErrorSource error_source(const LoadedConfig& loaded);
+
+/// `response` with force_error = |F - F_continuum| plus the continuum's own error [N], from the
+/// first depth of the continuum to its last, and of a lateral motion where both have the same
+/// displacement; unknown elsewhere. Between depths the continuum's force is interpolated, and its
+/// relative error is the larger one of both sides.
+meshes::PressResponse with_force_error(const meshes::PressResponse& response,
+                                       const meshes::PressResponse& continuum);
+
+}  // namespace fingertip::studies::inline presses

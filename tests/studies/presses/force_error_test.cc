@@ -1,0 +1,93 @@
+#include "studies/presses/force_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "studies/presses/reference_job.h"
+#include "tests/studies/configured.h"
+
+using namespace fingertip::studies;
+using fingertip::meshes::PressResponse;
+using fingertip::meshes::PressSample;
+
+namespace {
+
+PressSample sample(double indentation, double force, double error = std::nan("")) {
+  PressSample result;
+  result.indentation = indentation;
+  result.normal_force = force;
+  result.force_error = error;
+  return result;
+}
+
+ErrorSource source_of(const std::vector<std::string>& sets) {
+  return error_source(config_of(sets));
+}
+
+}  // namespace
+
+TEST(ForceError, IsTheDistanceFromTheContinuumAndItsOwnError) {
+  const PressResponse continuum({sample(1e-3, 2.0, 0.02), sample(2e-3, 6.0, 0.12)});
+  const PressResponse lattice({sample(0.5e-3, 1.0), sample(1e-3, 2.3), sample(1.5e-3, 3.0),
+                               sample(2e-3, 5.0), sample(2.5e-3, 8.0)});
+  const auto samples = with_force_error(lattice, continuum).samples();
+  ASSERT_EQ(samples.size(), 5U);
+  EXPECT_TRUE(std::isnan(samples[0].force_error)) << "above the continuum's first depth";
+  EXPECT_NEAR(samples[1].force_error, 0.3 + 0.02, 1e-12);
+  const double between = continuum.normal_force_at(1.5e-3);
+  EXPECT_NEAR(samples[2].force_error, between - 3.0 + 0.02 * between, 1e-12)
+      << "with the larger relative error of both sides";
+  EXPECT_NEAR(samples[3].force_error, 1.0 + 0.12, 1e-12);
+  EXPECT_TRUE(std::isnan(samples[4].force_error)) << "beyond its last";
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    EXPECT_EQ(samples[i].normal_force, lattice.samples()[i].normal_force);
+  const PressResponse alone = with_force_error(lattice, {});
+  for (const PressSample& own : alone.samples()) EXPECT_TRUE(std::isnan(own.force_error));
+}
+
+TEST(ForceError, OfALateralMotionIsToldWhereBothHaveMovedAsFar) {
+  const auto moved = [](double displacement, double force, double error = std::nan("")) {
+    PressSample result = sample(1e-3, force, error);
+    result.lateral_displacement = displacement;
+    return result;
+  };
+  const PressResponse continuum({sample(1e-3, 2.0, 0.02), moved(1e-3, 1.9, 0.03)});
+  const PressResponse lattice({sample(1e-3, 2.0), moved(0.5e-3, 2.0), moved(1e-3, 2.1)});
+  ASSERT_EQ(lattice.sliding().size(), 2U);
+  const auto samples = with_force_error(lattice, continuum).samples();
+  EXPECT_NEAR(samples[0].force_error, 0.02, 1e-12);
+  EXPECT_TRUE(std::isnan(samples[1].force_error));
+  EXPECT_NEAR(samples[2].force_error, 0.2 + 0.03, 1e-12);
+}
+
+TEST(ForceError, IsFromTheContinuumWhereThatTakesSeconds) {
+  const ErrorSource small = source_of({});
+  ASSERT_TRUE(small.continuum);
+  EXPECT_TRUE(small.continuum->estimate_error);
+  EXPECT_EQ(small.statement, "from the continuum at small strain");
+  const ErrorSource large = source_of({"lattice.model=published"});
+  ASSERT_TRUE(large.continuum);
+  EXPECT_EQ(large.statement, "from the continuum at large strain");
+  const auto key = [](const ErrorSource& source) { return reference_job(*source.continuum).key(); };
+  EXPECT_NE(key(large), key(small));
+  EXPECT_EQ(source_of({"lattice.model=published", "reference.strain=linear"}).statement,
+            small.statement);
+  EXPECT_EQ(key(source_of({"press.mode=static"})), key(small));
+}
+
+TEST(ForceError, SaysWhyItIsNotKnown) {
+  for (const auto& [set, why] : std::map<std::string, std::string>{
+           {"press.tilt=5 deg", "run.error = \"continuum\""},
+           {"rubber.relaxation=[[0.25, \"0.3 s\"]]", "relaxes"},
+           {R"(press.program=[["2 mm", "3 cm/s"], ["hold", "2 s"]])", "program"}}) {
+    const ErrorSource source = source_of({set});
+    EXPECT_FALSE(source.continuum) << set;
+    EXPECT_TRUE(says(source.statement, {"not known", why})) << source.statement;
+  }
+  EXPECT_TRUE(source_of({"press.tilt=5 deg", "run.error=continuum"}).continuum);
+  const ErrorSource off = source_of({"run.error=off"});
+  EXPECT_FALSE(off.continuum);
+  EXPECT_EQ(off.statement, "");
+}
