@@ -84,7 +84,7 @@ class OwnController : public testing::Test {
     EXPECT_FALSE(place_.has("run/finished.json"));
   }
 
-  const Words coarse = {"press.depth=0.03 cm", "lattice.spacing=tip_radius/6"};
+  const Words coarse = {"press.depth=0.03 cm", "lattice.spacing=tip_radius/6", "run.error=off"};
   const Workplace place_;
 };
 

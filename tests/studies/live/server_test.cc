@@ -238,16 +238,15 @@ TEST_F(LiveServerTest, OversizedBinaryAndTooManyMessagesEndTheConnection) {
 TEST_F(LiveServerTest, AHundredClientsDoNotBreakIt) {
   std::vector<std::unique_ptr<Page>> pages;
   for (int i = 0; i < 100; ++i) pages.push_back(page());
-  int served = 0;
-  for (const auto& page : pages) {
-    if (page->connected() && !page->closed()) served += page->wait_for(has_frame, 2000ms) ? 1 : 0;
-  }
-  EXPECT_EQ(served, max_clients);
+  std::vector<Page*> served;  // on a busy machine not the first ones
+  for (const auto& page : pages)
+    if (page->connected() && !page->closed() && page->wait_for(has_frame, 2000ms))
+      served.push_back(page.get());
+  ASSERT_EQ(int(served.size()), max_clients);
   EXPECT_EQ(server_->clients(), max_clients);
-  pages.front()->send(R"({"type":"run"})");
-  for (int i : {0, 10, 31})
-    EXPECT_TRUE(
-        pages[std::size_t(i)]->wait_for([](const Page& p) { return p.frame.at("time") > 0.005; }));
+  served.front()->send(R"({"type":"run"})");
+  for (Page* page : {served.front(), served[10], served.back()})
+    EXPECT_TRUE(page->wait_for([](const Page& p) { return p.frame.at("time") > 0.005; }));
   pages.clear();
   for (int tries = 0; tries < 100 && server_->clients() > 0; ++tries)
     std::this_thread::sleep_for(50ms);

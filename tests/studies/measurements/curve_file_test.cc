@@ -161,6 +161,7 @@ TEST_F(MeasuredData, MayBeAProgramsResponse) {
   // Of a lattice it is the distance from the continuum.
   write_text(folder_ / "boundary.csv", "x [m]\n");
   EXPECT_TRUE(read_measured({folder_ / "response.csv"}, every).at(0).curve.sigma.empty());
+  fs::remove(folder_ / "boundary.csv");
 
   const MeasuredFile part =
       read("indentation [m],normal_force [N],force_error [N]\n1e-4,1,0.1\n2e-4,2,\n3e-4,3,0\n");
