@@ -70,17 +70,15 @@ ContactCurves::ContactCurves(const LoadedConfig& loaded, Of of) {
   const double depth = loaded.config.press.protocol.depth;
   for (const Obstacle& obstacle : pressed(loaded.config, of)) {
     LoadedConfig own = loaded;
-    fem_reference::ReferenceJob& reference = own.config.reference;
     meshes::PressProtocol& protocol = own.config.press.protocol;
     protocol.obstacle = obstacle;
     protocol.samples = depths_to(depth);
-    reference.analysis = fem_reference::Analysis::static_press;
-    if (!loaded.entries.at("reference.strain").given)
-      reference.strain = fem_reference::Strain::finite;
-    reference.write_fields = false;
+    const fem_reference::Strain strain = loaded.entries.at("reference.strain").given
+                                             ? loaded.config.reference.strain
+                                             : fem_reference::Strain::finite;
     const bool fitted = jobs_.empty();
     jobs_.push_back({fmt::format("continuum/{}", jobs_.size() + 1),
-                     reference_job(continuum_setup(own)), !fitted});
+                     reference_job(continuum_at_rest(own, strain)), !fitted});
     curves_.push_back({name_of(obstacle), obstacle, fitted, {}, {}, {}});
   }
   if (of == Of::lattice) {

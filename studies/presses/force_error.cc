@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/presses/press_setup.h"
+
 namespace fingertip::studies::inline presses {
 namespace {
 
@@ -31,24 +33,23 @@ double relative_error_at(std::span<const PressSample> samples, double depth) {
 ErrorSource error_source(const LoadedConfig& loaded) {
   const Config& config = loaded.config;
   if (config.force_error == ForceErrorBy::nothing) return {};
-  ReferenceJob reference = config.continuum();
-  reference.analysis = fem_reference::Analysis::static_press;
-  reference.write_fields = false;
-  reference.estimate_error = true;
-  const bool small = config.press.lattice.kinematics == lattice::Kinematics::small;
-  if (!loaded.entries.at("reference.strain").given)
-    reference.strain = small ? fem_reference::Strain::linear : fem_reference::Strain::finite;
   const auto unknown = [](const std::string& why) { return ErrorSource{{}, "not known: " + why}; };
-  if (const auto broken = reference.violations(); !broken.empty())
-    return unknown("the continuum refuses this press: " + broken.front().rule);
+  ReferenceJob reference;
+  try {
+    reference = continuum_at_rest(loaded, loaded.entries.at("reference.strain").given
+                                              ? config.reference.strain
+                                              : strain_of(config.press.lattice.kinematics));
+  } catch (const ConfigError& error) {
+    return unknown("the continuum refuses this press: " + error.violations().front().rule);
+  }
+  reference.estimate_error = true;
   if (!config.press.protocol.program.empty())
     return unknown("the continuum beside a press knows no program");
   if (config.force_error == ForceErrorBy::automatic) {
-    const char* found = "; run.error = \"continuum\" finds it";
-    if (!reference.axisymmetric()) return unknown(std::string("the continuum is a solid") + found);
+    const std::string found = "; run.error = \"continuum\" finds it";
+    if (!reference.axisymmetric()) return unknown("the continuum is a solid" + found);
     if (!reference.rubber.relaxation.empty())
-      return unknown(std::string("the continuum of a rubber that relaxes takes many steps") +
-                     found);
+      return unknown("the continuum of a rubber that relaxes takes many steps" + found);
   }
   const bool linear = reference.strain == fem_reference::Strain::linear;
   return {reference,
@@ -64,13 +65,12 @@ PressResponse with_force_error(const PressResponse& response, const PressRespons
     sample.force_error = meshes::unknown;
     if (continuum.empty()) continue;
     if (i < loading) {
-      const double depth = sample.indentation, first = pressed.front().indentation;
-      if (same_length(depth, first) || (depth > first && depth <= continuum.depth()) ||
-          same_length(depth, continuum.depth())) {
-        const double force = continuum.normal_force_at(std::clamp(depth, first, continuum.depth()));
-        sample.force_error =
-            std::abs(sample.normal_force - force) + relative_error_at(pressed, depth) * force;
-      }
+      const double depth = sample.indentation,
+                   known = std::clamp(depth, pressed.front().indentation, continuum.depth());
+      if (!same_length(depth, known)) continue;
+      const double force = continuum.normal_force_at(known);
+      sample.force_error =
+          std::abs(sample.normal_force - force) + relative_error_at(pressed, depth) * force;
     } else {
       const auto beside = std::ranges::find_if(continuum.sliding(), [&](const PressSample& other) {
         return same_length(other.lateral_displacement, sample.lateral_displacement);

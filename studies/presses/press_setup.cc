@@ -255,16 +255,26 @@ fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded) {
   return job;
 }
 
-fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
-                                             lattice::Kinematics kinematics) {
+fem_reference::ReferenceJob continuum_at_rest(const LoadedConfig& loaded,
+                                              fem_reference::Strain strain) {
   LoadedConfig own = loaded;
   fem_reference::ReferenceJob& reference = own.config.reference;
   reference.analysis = fem_reference::Analysis::static_press;
-  reference.strain = kinematics == lattice::Kinematics::finite ? fem_reference::Strain::finite
-                                                               : fem_reference::Strain::linear;
+  reference.strain = strain;
   reference.write_fields = false;
-  own.config.continuum_law = ContinuumLaw::a;
   return continuum_setup(own);
+}
+
+fem_reference::Strain strain_of(lattice::Kinematics kinematics) {
+  return kinematics == lattice::Kinematics::finite ? fem_reference::Strain::finite
+                                                   : fem_reference::Strain::linear;
+}
+
+fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
+                                             lattice::Kinematics kinematics) {
+  LoadedConfig own = loaded;
+  own.config.continuum_law = ContinuumLaw::a;
+  return continuum_at_rest(own, strain_of(kinematics));
 }
 
 calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::ModelKind model) {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lattice/press/setup_fields.h"
-#include "meshes/base/cannot_write.h"
 #include "meshes/tables/fields_json.h"
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/config/asked_units.h"
@@ -149,7 +148,7 @@ void RealTimeRun::find_force_error(Session& session,
         "and compare tell it";
     return;
   }
-  try {
+  const std::string failure = failure_of([&] {
     const ContactCurves contact(straight, ContactCurves::Of::lattice);
     std::vector<PlannedJob> jobs = contact.jobs();
     for (PlannedJob& job : jobs) job.exhibit = true;
@@ -170,13 +169,8 @@ void RealTimeRun::find_force_error(Session& session,
                         : "large",
                     is_straight ? "" : ", of a press straight to the same depth");
     record.force_error = transfer_of("", "", {}, curves, models).obstacles.front();
-  } catch (const meshes::Interrupted&) {
-    throw;
-  } catch (const meshes::CannotWrite&) {
-    throw;
-  } catch (const std::exception& error) {
-    record.force_error_of = std::string("not known: ") + error.what();
-  }
+  });
+  if (!failure.empty()) record.force_error_of = "not known: " + failure;
 }
 
 std::string RealTimeRun::text() const {

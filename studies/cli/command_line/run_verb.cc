@@ -53,6 +53,19 @@ bool holds_results(const std::filesystem::path& folder) {
 
 }  // namespace
 
+std::string failure_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const meshes::Interrupted&) {
+    throw;
+  } catch (const meshes::CannotWrite&) {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
 int cores_for(const LoadedConfig& loaded) {
   const int wanted = loaded.config.press.threads;
   return wanted > 0 ? wanted : lattice::machine_cores();

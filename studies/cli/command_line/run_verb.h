@@ -19,6 +19,10 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
 /// How long the job of the run took, and where its files are, for the screen.
 void print_folder(const Session& session, const JobResult& result);
 
+/// Does what a run can do without. What failed, in words, empty where all went well; only an
+/// interrupt and a file that cannot be written end the run, too.
+std::string failure_of(const std::function<void()>& work);
+
 /// That jobs may use together.
 int cores_for(const LoadedConfig& loaded);
 

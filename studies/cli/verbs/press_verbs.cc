@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "fem_reference/job/run_tables.h"
-#include "meshes/base/cannot_write.h"
 #include "meshes/press/press_response.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/cli/command_line/real_time.h"
@@ -200,25 +199,19 @@ class ToldSummary {
   nlohmann::ordered_json content_;
 };
 
-constexpr const char* continuum_name = "continuum";
-
-/// The continuum's press for the error of a lattice's, or why it gave none. Whatever happens to it,
-/// the lattice's press stands.
-meshes::PressResponse continuum_beside(Session& session, ErrorSource& source) {
-  try {
+/// The continuum's press for the error of a lattice's; empty where it failed, which `source` then
+/// tells.
+meshes::PressResponse press_continuum(Session& session, ErrorSource& source) {
+  const PlannedJob planned{"continuum", reference_job(*source.continuum), false};
+  meshes::PressResponse response;
+  const std::string failure = failure_of([&] {
     if (!std::filesystem::exists(reference_program()))
       throw std::runtime_error("fingertip-fem is not beside this program");
-    session.run({continuum_name, reference_job(*source.continuum), false});
-    return meshes::PressResponse::read_csv(session.folder().path() / continuum_name /
-                                           "response.csv");
-  } catch (const meshes::Interrupted&) {
-    throw;
-  } catch (const meshes::CannotWrite&) {
-    throw;
-  } catch (const std::exception& error) {
-    source.statement = std::string("not known: ") + error.what();
-    return {};
-  }
+    session.run(planned);
+    response = meshes::PressResponse::read_csv(session.path_of(planned) / "response.csv");
+  });
+  if (!failure.empty()) source.statement = "not known: " + failure;
+  return response;
 }
 
 /// Gives a press that is done the error of its forces, as `run.error` says: the column force_error
@@ -227,7 +220,7 @@ std::string find_force_error(ErrorSource source, const meshes::PressProtocol& pr
                              Session& session, ToldSummary& told, meshes::PressResponse& response) {
   const std::filesystem::path& folder = session.folder().path();
   const meshes::PressResponse continuum =
-      source.continuum ? continuum_beside(session, source) : meshes::PressResponse();
+      source.continuum ? press_continuum(session, source) : meshes::PressResponse();
   // A run that is resumed may have had another error.
   const bool had_error = std::ranges::any_of(
       response.samples(),

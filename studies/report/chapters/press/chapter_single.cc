@@ -192,8 +192,10 @@ Chapter press_chapter(const meshes::PressResponse& response, const std::vector<C
   const SampleColumn radius{"Contact radius", &meshes::PressSample::contact_radius,
                             shown_units().length};
   ChapterData chapter("press");
-  chapter["error"] = !error_bars(samples).x.empty();
-  chapter.figures = {{"force_indentation", 760, 420, 1, {loop_panel(response, trace)}}};
+  Panel force = loop_panel(response, trace);
+  chapter["error"] =
+      std::ranges::any_of(force.series, [](const Series& series) { return !series.error.empty(); });
+  chapter.figures = {{"force_indentation", 760, 420, 1, {std::move(force)}}};
   add_samples(chapter, samples, indentation());
   if (is_known(samples, radius))
     chapter.figures.push_back(
