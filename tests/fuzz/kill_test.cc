@@ -61,8 +61,9 @@ void kill_and_go_on(const std::vector<std::string>& words, int kills, unsigned s
 
 }  // namespace
 
+/// Seed 1 strikes first after 99.7 % of the time that the undisturbed run took.
 TEST(Kill, PressInTime) {
-  kill_and_go_on(moving_press(), wanted_kills(), 1);
+  kill_and_go_on(moving_press(), wanted_kills(), 9);
 }
 
 TEST(Kill, PressInEquilibrium) {
