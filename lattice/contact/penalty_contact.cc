@@ -176,32 +176,49 @@ kernel::ContactLoad PenaltyContact::load_on(std::uint32_t particle, bool& touche
     touches = true;
     const kernel::ContactLoad& load = loads_[place.group].corner[place.corner];
     for (std::size_t c = 0; c < 3; ++c) sum.force[c] += load.force[c];
-    sum.stiffness += load.stiffness;
-    sum.tangential += load.tangential;
+    for (std::size_t c = 0; c < 6; ++c) sum.stiffness[c] += load.stiffness[c];
   }
   return sum;
 }
+
+namespace {
+
+/// Of a particle on a mirror plane without what couples it to the motion across, which is held.
+Eigen::Matrix3d stiffness_of(const kernel::ContactLoad& load, const LatticeModel& model,
+                             std::uint32_t particle) {
+  const auto& k = load.stiffness;
+  Eigen::Matrix3d stiffness;
+  stiffness << k[0], k[3], k[4], k[3], k[1], k[5], k[4], k[5], k[2];
+  if (model.sector.count() > 1) {
+    const Vector3 own = stiffness.diagonal();
+    model.sector.hold(model.place(particle), stiffness);
+    stiffness.diagonal() = own;
+  }
+  return stiffness;
+}
+
+}  // namespace
 
 /// Passes the loads of some particles on to them; returns what the plane gives them, along the
 /// grid's axes. If those of the bond share theirs with it, they get the plain forces.
 Wrench PenaltyContact::unload_portion(std::size_t number, const State& state, double square,
                                       bool shares, VectorField& force) {
-  const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
   Wrench sum;
   const std::size_t last = std::min(near_particles_.size(), (number + 1) * near_portion);
   for (std::size_t n = number * near_portion; n < last; ++n) {
     const std::uint32_t particle = near_particles_[n], i = shape_->particles[particle];
     const kernel::ContactLoad load = load_on(particle, on_particle_[n].acts);
-    on_particle_[n].held = {particle, load.stiffness, load.tangential};
     if (!on_particle_[n].acts) continue;
+    const Eigen::Matrix3d stiffness = stiffness_of(load, *model_, i);
+    on_particle_[n].held = {particle, stiffness};
     const Vector3 others = force.at(i);
     Vector3 taken = others + Eigen::Map<const Vector3>(load.force);
     if (!shares || shape_->bonded[particle] == 0) {
       const double mass = model_->mass[i];
-      const double share = mass / (mass + square * load.stiffness);
-      const double tangential_share = mass / (mass + square * load.tangential);
-      const Vector3 along = normal.dot(taken) * normal;
-      taken = share * along + tangential_share * (taken - along);
+      const Eigen::Matrix3d inertia = mass * Eigen::Matrix3d::Identity() + square * stiffness;
+      // The plane's part first, which has no direction but those of its ties.
+      const Vector3 acceleration = inertia.inverse() * taken;
+      taken -= square * (stiffness * acceleration);
     }
     force.set(i, taken);
     const Vector3 given = taken - others;
@@ -231,17 +248,12 @@ Wrench PenaltyContact::unload(const State& state, double step, VectorField& forc
 
 void PenaltyContact::list_held(std::vector<SharedLoad>* shared) {
   held_.clear();
-  const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
-  const Eigen::Matrix3d along = normal * normal.transpose();
   for (std::size_t n = 0; n < near_particles_.size(); ++n) {
     if (!on_particle_[n].acts) continue;
     const Held& held = on_particle_[n].held;
     held_.push_back(held);
     if (shared == nullptr || shape_->bonded[held.particle] == 0) continue;
-    shared->push_back(
-        {shape_->particles[held.particle],
-         held.stiffness * along + held.tangential * (Eigen::Matrix3d::Identity() - along),
-         Vector3::Zero()});
+    shared->push_back({shape_->particles[held.particle], held.stiffness, Vector3::Zero()});
   }
 }
 
@@ -249,8 +261,8 @@ void PenaltyContact::list_inertia(double step, std::vector<ContactInertia>& ties
   const double square = step * step;
   ties.clear();
   for (const Held& held : held_) {
-    ties.push_back({shape_->particles[held.particle], square * held.stiffness,
-                    square * held.tangential, shape_->rest[held.particle]});
+    ties.push_back(
+        {shape_->particles[held.particle], square * held.stiffness, shape_->rest[held.particle]});
   }
 }
 

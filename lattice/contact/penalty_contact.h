@@ -34,14 +34,15 @@ namespace fingertip::lattice::inline contact {
 ///                 expected to be: guesses would add up to slip.
 ///
 /// Stiff ties do not dictate the time step: they act as they will be at its end, and particles take
-/// forces as in TiedBond, with the ties that act at the moment, frictionless along the normal
-/// alone; the plane receives what they do not. (With the gap at the step's start instead, undamped
+/// forces as in TiedBond, with the ties that act at the moment, frictionless along the normal of
+/// each alone, for what is heavy along a curved surface would not slide; the plane receives what
+/// they do not. (With the gap at the step's start instead, undamped
 /// rubber bounces on its ties from step to step until cells turn inside out.) In the plane a tie
 /// that slides counts with the share mu n/(k s) of its stiffness, s what its length would be
 /// without slip. For given n its energy in a step is E(s) = ½ k s² up to s_c = mu n/k, mu n (s -
 /// s_c/2) beyond; a concave function of s², so the parabola of curvature E'(s)/s that touches it at
 /// s lies above it everywhere, also where the tie unloads and sticks again: what makes backward
-/// Euler with diagonal inertia stable. A tie that slides steadily feels none of it, its force is mu
+/// Euler with block-diagonal inertia stable. A tie that slides steadily feels none of it, its force is mu
 /// n.
 ///
 /// Against an obstacle that is no plane g is that of statics/static_contact.h, and so is its
@@ -126,8 +127,8 @@ class PenaltyContact {
   std::vector<double> fastest_;                ///< of fixed portions of the contact particles
   std::vector<Wrench> given_;                  ///< of fixed portions of the near particles
   struct Held {
-    std::uint32_t particle = 0;  ///< contact particle
-    double stiffness = 0.0, tangential = 0.0;
+    std::uint32_t particle = 0;                           ///< contact particle
+    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();  ///< along the grid's axes [N/m]
   };
   struct Load {
     Held held;

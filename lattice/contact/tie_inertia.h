@@ -17,9 +17,9 @@ struct BondInertia {
 
 /// What ties to the plane add to a particle's inertia (penalty_contact.h).
 struct ContactInertia {
-  std::uint32_t particle = 0;            ///< grid index
-  double along = 0.0, tangential = 0.0;  ///< along the plane's normal, and in the plane [kg]
-  meshes::Vector3 rest = meshes::Vector3::Zero();  ///< of the particle, along the grid's axes [m]
+  std::uint32_t particle = 0;                         ///< grid index
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< along the grid's axes [kg]
+  meshes::Vector3 rest = meshes::Vector3::Zero();     ///< of the particle, likewise [m]
 };
 
 /// How the plane holds the tip, along the grid's axes.
@@ -29,12 +29,6 @@ struct PlaneHold {
   /// What it does to the tip if particles accelerate as the forces say: [N], and [N m] about the
   /// origin.
   Wrench wrench;
-
-  /// What it takes for that acceleration of a particle [N].
-  meshes::Vector3 taken(const ContactInertia& tie, const meshes::Vector3& acceleration) const {
-    return tie.tangential * acceleration +
-           (tie.along - tie.tangential) * normal.dot(acceleration) * normal;
-  }
 };
 
 }  // namespace fingertip::lattice::inline contact

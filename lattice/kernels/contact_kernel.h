@@ -12,9 +12,10 @@ namespace fingertip::lattice::inline kernels::kernel {
 
 /// What ties of the plane do to one particle.
 struct ContactLoad {
-  double force[3];    ///< along the grid's axes [N]
-  double stiffness;   ///< Σ_j |K_ij| of the ties that act, along the normal [N/m]
-  double tangential;  ///< and in the plane
+  double force[3];  ///< along the grid's axes [N]
+  /// Σ_j |w_i w_j| K of the ties that act, K of a tie, w the weights of the corners: xx, yy, zz,
+  /// xy, xz, yz, along the grid's axes [N/m].
+  double stiffness[6];
 };
 
 /// What the ties of a group do to the corners of its cell.

@@ -23,11 +23,10 @@ struct ContactBody : Packs<Pack> {
   struct Trilinear {
     double term[3][lanes];
   };
-  /// What eight ties do: their pull along the grid's axes [N], and how much of the stiffness acts
-  /// along the normal and in the plane [N/m].
+  /// What eight ties do, as in ContactLoad.
   struct Pulls {
     double force[3][lanes];
-    double stiffness[lanes], tangential[lanes];
+    double stiffness[6][lanes];
   };
 
   [[gnu::always_inline]] static Vector load(const Lanes* field, std::size_t lane) {
@@ -112,6 +111,13 @@ struct ContactBody : Packs<Pack> {
     return broadcast(frame.shift) + Vector{t[0] * x.x + t[1] * x.y + t[2] * x.z,
                                            t[3] * x.x + t[4] * x.y + t[5] * x.z,
                                            t[6] * x.x + t[7] * x.y + t[8] * x.z};
+  }
+
+  /// A vector of the frame's, along the grid's axes.
+  [[gnu::always_inline]] static Vector along_grid(const PlaneFrame& frame, const Vector& v) {
+    const double* t = frame.turn;
+    return {t[0] * v.x + t[3] * v.y + t[6] * v.z, t[1] * v.x + t[4] * v.y + t[7] * v.z,
+            t[2] * v.x + t[5] * v.y + t[8] * v.z};
   }
 
   /// The gap of points at `place`, and its gradient.
@@ -269,14 +275,20 @@ struct ContactBody : Packs<Pack> {
                                           GroupFindings& found) {
     const Pack stiffness = load(group.stiffness, lane);
     const Vector force = stiffness * (tie.elastic + tie.more * tie.normal);
-    const double* t = a.then.turn;
-    Base::store(pulls.force[0] + lane, t[0] * force.x + t[3] * force.y + t[6] * force.z);
-    Base::store(pulls.force[1] + lane, t[1] * force.x + t[4] * force.y + t[7] * force.z);
-    Base::store(pulls.force[2] + lane, t[2] * force.x + t[5] * force.y + t[8] * force.z);
+    const Vector on_grid = along_grid(a.then, force), n = along_grid(a.then, tie.normal);
+    Base::store(pulls.force[0] + lane, on_grid.x);
+    Base::store(pulls.force[1] + lane, on_grid.y);
+    Base::store(pulls.force[2] + lane, on_grid.z);
     const Mask acts = force.x != 0.0 || force.y != 0.0 || force.z != 0.0;
     const Pack inertia = choose(acts, load(group.inertia, lane), Pack(0.0));
-    Base::store(pulls.stiffness + lane, tie.push.tangent * inertia);
-    Base::store(pulls.tangential + lane, tie.share * inertia);
+    // Across the normal a share of it, along it what its law has.
+    const Pack across = tie.share * inertia, more = (tie.push.tangent - tie.share) * inertia;
+    Base::store(pulls.stiffness[0] + lane, across + more * n.x * n.x);
+    Base::store(pulls.stiffness[1] + lane, across + more * n.y * n.y);
+    Base::store(pulls.stiffness[2] + lane, across + more * n.z * n.z);
+    Base::store(pulls.stiffness[3] + lane, more * n.x * n.y);
+    Base::store(pulls.stiffness[4] + lane, more * n.x * n.z);
+    Base::store(pulls.stiffness[5] + lane, more * n.y * n.z);
     store(memory.push, lane, dot(force, broadcast(a.normal)));
     store(memory.force, lane, force);
     found.touching += popcount(acts);
@@ -307,10 +319,7 @@ struct ContactBody : Packs<Pack> {
       if constexpr (grip != Grip::frictionless) look_at(a, group, place, ahead.gap, lane, memory);
       store(memory.place, lane, place);
       store(memory.gap, lane, ahead.gap);
-      Stretch tie = stretches<grip>(a, place, ahead, memory, lane);
-      // Particles know one normal, the plane's: across another one a tie counts in full.
-      if (a.exact) tie.share = tie.push.tangent;
-      note(a, group, tie, lane, memory, pulls, found);
+      note(a, group, stretches<grip>(a, place, ahead, memory, lane), lane, memory, pulls, found);
       const double least = std::experimental::hmin(ahead.gap);
       found.smallest_gap = least < found.smallest_gap ? least : found.smallest_gap;
       found.anchored = found.anchored || any_of(load(memory.anchored, lane) != 0.0);
@@ -328,19 +337,21 @@ struct ContactBody : Packs<Pack> {
         entry<d()>(low) = 0.5 - 0.5 * entry<d()>(slope);
       });
       Vector force{0.0, 0.0, 0.0};
-      Pack stiffness = 0.0, tangential = 0.0;
+      Pack stiffness[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
       for (std::size_t p = 0; p < lanes; ++p) {
         const Pack share = (low.x + slope.x * group.local[0].at[p]) *
                            (low.y + slope.y * group.local[1].at[p]) *
                            (low.z + slope.z * group.local[2].at[p]);
         const Pack size = std::experimental::abs(share);
         force += share * Vector{pulls.force[0][p], pulls.force[1][p], pulls.force[2][p]};
-        stiffness += pulls.stiffness[p] * size;
-        tangential += pulls.tangential[p] * size;
+        for (std::size_t n = 0; n < 6; ++n) stiffness[n] += pulls.stiffness[n][p] * size;
       }
       for (std::size_t lane = 0; lane < width; ++lane) {
-        loads.corner[corner + lane] = {
-            {force.x[lane], force.y[lane], force.z[lane]}, stiffness[lane], tangential[lane]};
+        ContactLoad& load = loads.corner[corner + lane];
+        load.force[0] = force.x[lane];
+        load.force[1] = force.y[lane];
+        load.force[2] = force.z[lane];
+        for (std::size_t n = 0; n < 6; ++n) load.stiffness[n] = stiffness[n][lane];
       }
     }
   }

@@ -5,7 +5,7 @@
 
 namespace fingertip::lattice::inline press {
 
-using meshes::Vector3;
+using meshes::PressSample, meshes::Vector3;
 
 namespace {
 
@@ -46,15 +46,15 @@ PressRecorder::PressRecorder(const meshes::PressProtocol& protocol,
   for (const meshes::MotionSample& sample : later_) times_.push_back(sample.time);
 }
 
-meshes::PressSample PressRecorder::sample_between(const PressInstant& end, double fraction,
-                                                  std::size_t stage) const {
+PressSample PressRecorder::sample_between(const PressInstant& end, double fraction,
+                                          std::size_t stage) const {
   const auto between = [fraction](const auto& from, const auto& to) {
     return (from + fraction * (to - from));
   };
   const Vector3 force = between(previous_.bond.force, end.bond.force).eval();
   const Vector3 torque = between(previous_.bond.torque, end.bond.torque).eval();
   const Vector3 t1 = first_tangent(normal_), t2 = t1.cross(normal_);
-  meshes::PressSample sample;
+  PressSample sample;
   sample.indentation = between(previous_.indentation, end.indentation);
   sample.normal_force = force.dot(normal_);
   sample.lateral_force_x = force.dot(t1);
@@ -65,30 +65,48 @@ meshes::PressSample PressRecorder::sample_between(const PressInstant& end, doubl
   const ContactPatch patch = finger_->contact_patch();
   sample.contact_radius = patch.radius;
   sample.max_pressure = patch.max_pressure;
+  if (stage == 0)
+    move(sample, {&PressSample::contact_radius, &PressSample::max_pressure}, end.indentation,
+         sample.indentation);
   sample.time = between(previous_.time, end.time);
   if (lateral_) sample.lateral_displacement = between(previous_.lateral, end.lateral);
   if (program_) sample.stage = double(stage + 1);
   return sample;
 }
 
-meshes::PressSample PressRecorder::sample_at(const PressInstant& end,
-                                             const meshes::MotionSample& wanted) const {
+/// Brings what a sample has `from` an indentation to another one beside it, along the chord from
+/// the last row.
+void PressRecorder::move(PressSample& sample, std::initializer_list<double PressSample::*> values,
+                         double from, double to) const {
+  const auto& rows = outcome_->response.samples();
+  if (rows.empty()) return;
+  const PressSample& last = rows.back();
+  const double way = from - last.indentation;
+  if (!(way > std::abs(to - from))) return;
+  for (const auto value : values)
+    if (!std::isnan(last.*value))  // a patch that is no ellipse has no largest pressure
+      sample.*value += (to - from) / way * (sample.*value - last.*value);
+}
+
+PressSample PressRecorder::sample_at(const PressInstant& end,
+                                     const meshes::MotionSample& wanted) const {
   const double lasts = end.time - previous_.time;
-  meshes::PressSample sample =
+  PressSample sample =
       sample_between(end, lasts > 0.0 ? (wanted.time - previous_.time) / lasts : 1.0, wanted.stage);
   sample.time = wanted.time;
   if (prescribed_) sample.indentation = wanted.indentation;
-  // A controller may leave the end of the first loading a hair's breadth away: its force is moved
-  // there along the chord of the last two, so that it can be told at the depth that was asked for.
+  // A controller may leave the end of the first loading a hair's breadth away: what belongs to it
+  // is brought there, so that it can be told at the depth that was asked for.
   constexpr double hair = 0.01;
-  const auto& rows = outcome_->response.samples();
   const double beside = wanted.indentation - sample.indentation;
-  if (wanted.stage > 0 || rows.empty() || std::abs(beside) > hair * wanted.indentation)
+  if (wanted.stage > 0 || outcome_->response.empty() ||
+      std::abs(beside) > hair * wanted.indentation)
     return sample;
-  const meshes::PressSample& last = rows.back();
-  const double way = sample.indentation - last.indentation;
-  if (way > std::abs(beside))
-    sample.normal_force += beside / way * (sample.normal_force - last.normal_force);
+  move(sample,
+       {&PressSample::normal_force, &PressSample::lateral_force_x, &PressSample::lateral_force_y,
+        &PressSample::torque_x, &PressSample::torque_y, &PressSample::torque_z,
+        &PressSample::contact_radius, &PressSample::max_pressure},
+       sample.indentation, wanted.indentation);
   sample.indentation = wanted.indentation;
   return sample;
 }
@@ -110,8 +128,7 @@ bool PressRecorder::add_step(const PressInstant& start) {
   bool passed_sample = false;
   while (next_later_ == 0 && next_ < depths_.size() && start.indentation >= depths_[next_]) {
     const double way = start.indentation - previous_.indentation;
-    meshes::PressSample sample =
-        sample_between(start, (depths_[next_] - previous_.indentation) / way, 0);
+    PressSample sample = sample_between(start, (depths_[next_] - previous_.indentation) / way, 0);
     sample.indentation = depths_[next_];
     outcome_->response.append(sample);
     passed_sample = passed_sample || is_sample_[next_] != 0;

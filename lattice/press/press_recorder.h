@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <vector>
 
@@ -47,6 +48,9 @@ class PressRecorder {
   meshes::PressSample sample_between(const PressInstant& end, double fraction,
                                      std::size_t stage) const;
   meshes::PressSample sample_at(const PressInstant& end, const meshes::MotionSample& wanted) const;
+  void move(meshes::PressSample& sample,
+            std::initializer_list<double meshes::PressSample::*> values, double from,
+            double to) const;
   void add_work(const PressInstant& end);
 
   meshes::Vector3 normal_;

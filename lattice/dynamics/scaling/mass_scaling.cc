@@ -15,6 +15,11 @@ Vector3 vector_at(const MultigridFields::Field& field, std::size_t point) {
   return {field[0][point], field[1][point], field[2][point]};
 }
 
+/// Along the plane's normal [kg].
+double along_normal(const ContactInertia& tie, const PlaneHold& plane) {
+  return plane.normal.dot(tie.inertia * plane.normal);
+}
+
 /// Whether what was found for one sum serves for another. Less is held than then: too much is kept,
 /// which is safe.
 bool serves(double then, double now) {
@@ -95,16 +100,17 @@ Restraint MassScaling::restraint() const {
 void MassScaling::set_contact(const PlaneHold& plane, MultigridFields::Level& finest) const {
   finest.contact.clear();
   for (const ContactInertia& tie : plane.ties)
-    finest.contact.push_back({tie.particle, Single(tie.along), Single(tie.tangential)});
+    finest.contact.push_back({tie.particle, tie.inertia.cast<Single>()});
 }
 
 void MassScaling::restrain(const State& state, const PlaneHold& plane, Team& team,
                            AccelerationFields& fields, Restraint& restraint) const {
   Restraint::Ground now;
   for (const ContactInertia& tie : plane.ties) {
-    now.along += tie.along;
-    now.tangential += tie.tangential;
-    now.patch += tie.along * tie.rest;
+    const double along = along_normal(tie, plane);
+    now.along += along;
+    now.tangential += 0.5 * (tie.inertia.trace() - along);
+    now.patch += along * tie.rest;
   }
   restraint.holds = now.along > 0.0;
   if (!restraint.holds) return;
@@ -120,7 +126,7 @@ void MassScaling::restrain(const State& state, const PlaneHold& plane, Team& tea
 }
 
 /// B C of unit accelerations along the normal and both ways across it: all at the same time where
-/// they are the grid's axes, for then neither the plane's ties nor S couple them.
+/// they are the grid's axes and ties those of a plane, for then neither these nor S couple them.
 void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFields& fields,
                               Restraint& restraint) const {
   MultigridFields::Level& finest = fields.grids.levels.front();
@@ -130,18 +136,23 @@ void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFi
   turn(restraint, plane.normal);
   const Vector3& normal = restraint.directions[0];
   set_contact(plane, finest);
-  const bool along_axes = normal.cwiseAbs().maxCoeff() > 1.0 - 1e-6;
-  for (std::size_t first = 0; first < 3; first += along_axes ? 3 : 1) {
-    const std::size_t last = along_axes ? 3 : first + 1;
+  const bool uncoupled = normal.cwiseAbs().maxCoeff() > 1.0 - 1e-6 &&
+                         std::ranges::all_of(plane.ties, [](const ContactInertia& tie) {
+                           const auto others = [](const Eigen::Matrix3d& m) {
+                             return std::abs(m(0, 1)) + std::abs(m(0, 2)) + std::abs(m(1, 2));
+                           };
+                           return others(tie.inertia) <= 1e-6 * tie.inertia.trace();
+                         });
+  for (std::size_t first = 0; first < 3; first += uncoupled ? 3 : 1) {
+    const std::size_t last = uncoupled ? 3 : first + 1;
     for (auto& component : finest.load) std::fill(component.begin(), component.end(), 0.0F);
     for (const ContactInertia& tie : plane.ties) {
       Vector3 taken = Vector3::Zero();
-      for (std::size_t n = first; n < last; ++n)
-        taken += (n == 0 ? tie.along : tie.tangential) * restraint.directions[n];
+      for (std::size_t n = first; n < last; ++n) taken += tie.inertia * restraint.directions[n];
       for (std::size_t c = 0; c < 3; ++c)
         finest.load[c][tie.particle] = Single(taken[Eigen::Index(c)]);
     }
-    grids_.solve(normal, team, fields.grids);
+    grids_.solve(team, fields.grids);
     for (std::size_t n = first; n < last; ++n)
       take_share(restraint.directions[n], finest.solution, restraint.share[n]);
   }
@@ -151,27 +162,28 @@ void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFi
 /// and turned about its centre by C.
 void MassScaling::find_inertia(const State& state, const PlaneHold& plane,
                                Restraint& restraint) const {
-  Vector3 left = Vector3::Zero();  // along the restraint's directions
+  Eigen::Matrix3d along, left = Eigen::Matrix3d::Zero(), turned = left;
+  for (std::size_t n = 0; n < 3; ++n) along.col(Eigen::Index(n)) = restraint.directions[n];
   restraint.centre.setZero();
   double sum = 0.0;
   for (const ContactInertia& tie : plane.ties) {
-    const double inertia[3] = {tie.along, tie.tangential, tie.tangential};
+    // Of ties that couple the directions what is as far from each of both.
+    Vector3 kept;
     for (std::size_t n = 0; n < 3; ++n)
-      left[Eigen::Index(n)] += inertia[n] * (1.0 - double(restraint.share[n][tie.particle]));
-    restraint.centre += tie.along * (tie.rest + state.displacement.at(tie.particle));
-    sum += tie.along;
+      kept[Eigen::Index(n)] = std::sqrt(1.0 - double(restraint.share[n][tie.particle]));
+    left += kept.asDiagonal() * (along.transpose() * tie.inertia * along) * kept.asDiagonal();
+    const double weight = along_normal(tie, plane);
+    restraint.centre += weight * (tie.rest + state.displacement.at(tie.particle));
+    sum += weight;
   }
   restraint.centre /= sum;
-  Eigen::Matrix3d along, turned = Eigen::Matrix3d::Zero();
-  for (std::size_t n = 0; n < 3; ++n) along.col(Eigen::Index(n)) = restraint.directions[n];
   const Eigen::Matrix<double, 3, 6> shifted = along.transpose() * rigid_motion(restraint.centre);
-  restraint.inertia = shifted.transpose() * left.asDiagonal() * shifted;
+  restraint.inertia = shifted.transpose() * left * shifted;
   for (const ContactInertia& tie : plane.ties) {
-    const Vector3 arm = tie.rest + state.displacement.at(tie.particle) - restraint.centre,
-                  tilt = arm.cross(plane.normal);  // the normal part of w x arm is w . tilt
-    turned +=
-        tie.tangential * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
-    turned += (tie.along - tie.tangential) * tilt * tilt.transpose();
+    const Vector3 arm = tie.rest + state.displacement.at(tie.particle) - restraint.centre;
+    Eigen::Matrix3d cross;  // w x arm = crossᵀ w
+    cross << 0.0, -arm.z(), arm.y(), arm.z(), 0.0, -arm.x(), -arm.y(), arm.x(), 0.0;
+    turned += cross * tie.inertia * cross.transpose();
   }
   restraint.inertia.bottomRightCorner<3, 3>() += turned;
   restraint.inertia = ground_->model->sector.whole_on_grid(restraint.inertia);
@@ -185,8 +197,7 @@ void MassScaling::set_load(const Vector6& expected, const State& state, const Ve
   ground_->rubber.load(expected, gain_, state, team, force, finest.load);
   set_contact(plane, finest);
   for (const ContactInertia& tie : plane.ties) {
-    const Vector3 more =
-        plane.taken(tie, model.inverse_mass[tie.particle] * force.at(tie.particle));
+    const Vector3 more = tie.inertia * (model.inverse_mass[tie.particle] * force.at(tie.particle));
     for (std::size_t c = 0; c < 3; ++c)
       finest.load[c][tie.particle] += Single(more[Eigen::Index(c)]);
   }
@@ -200,13 +211,13 @@ Reactions MassScaling::accelerate(const State& state, const OuterLoads& outer,
   MultigridFields::Level& finest = fields.grids.levels.front();
   const Vector6 expected = outer.rod ? outer.rod->expected : Vector6(Vector6::Zero());
   set_load(expected, state, force, outer.plane, team, finest);
-  grids_.solve(outer.plane.normal, team, fields.grids);
+  grids_.solve(team, fields.grids);
 
   Vector6 taken = Vector6::Zero();
   for (const ContactInertia& tie : outer.plane.ties) {
     const std::size_t i = tie.particle;
     const Vector3 change = vector_at(finest.solution, i) - inverse_mass[i] * force.at(i);
-    taken += acting_at(tie.rest + state.displacement.at(i), outer.plane.taken(tie, change));
+    taken += acting_at(tie.rest + state.displacement.at(i), tie.inertia * change);
   }
   Reactions reactions;
   reactions.plane << outer.plane.wrench.force, outer.plane.wrench.torque;

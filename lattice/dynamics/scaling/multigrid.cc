@@ -51,11 +51,9 @@ void share_contact(const GridLevel& fine, const GridLevel& coarse,
       std::int32_t& place = to.contact_at[points.point[n]];
       if (place < 0) {
         place = std::int32_t(to.contact.size());
-        to.contact.push_back({points.point[n], 0.0F, 0.0F});
+        to.contact.push_back({points.point[n]});
       }
-      PointTie& sum = to.contact[std::size_t(place)];
-      sum.along += share * tie.along;
-      sum.tangential += share * tie.tangential;
+      to.contact[std::size_t(place)].inertia += share * tie.inertia;
     }
   }
 }
@@ -164,9 +162,8 @@ void Multigrid::coarsen(std::size_t level, Team& team) {
 /// Of one level, for one solve.
 class Multigrid::Cycle {
  public:
-  Cycle(const Multigrid& grids, const std::array<Single, 3>& normal, Team& team,
-        MultigridFields& fields)
-      : grids_(&grids), normal_(normal), team_(&team), fields_(&fields) {}
+  Cycle(const Multigrid& grids, Team& team, MultigridFields& fields)
+      : grids_(&grids), team_(&team), fields_(&fields) {}
 
   void run(std::size_t level) {
     const GridLevel& grid = grids_->hierarchy_->levels()[level];
@@ -224,20 +221,25 @@ class Multigrid::Cycle {
       const bool held = share[c] == 0.0F;
       rubber = std::max(rubber, held ? matrix.diagonal(grid, c, tie.point) : 1.0F / share[c]);
     }
-    auto step = product(residual, 1.0F / (rubber + tie.along), 1.0F / (rubber + tie.tangential));
-    for (std::size_t c = 0; c < 3; ++c)
-      if (share[c] == 0.0F) step[c] = 0.0F;
-    return step;
+    // What is held has no part in it. Doubles, for ties are stiff in one direction.
+    Eigen::Matrix3d inertia = tie.inertia.cast<double>();
+    Eigen::Vector3d load(residual[0], residual[1], residual[2]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto axis = Eigen::Index(c);
+      if (share[c] == 0.0F) {
+        inertia.row(axis).setZero();
+        inertia.col(axis).setZero();
+        load[axis] = 0.0;
+      }
+      inertia(axis, axis) += double(rubber);
+    }
+    const Eigen::Vector3f step = (inertia.inverse() * load).cast<Single>();
+    return {step[0], step[1], step[2]};
   }
 
-  /// along n nᵀ u + tangential (1 - n nᵀ) u
-  std::array<Single, 3> product(const std::array<Single, 3>& u, Single along,
-                                Single tangential) const {
-    const Single towards = normal_[0] * u[0] + normal_[1] * u[1] + normal_[2] * u[2];
-    std::array<Single, 3> result{};
-    for (std::size_t c = 0; c < 3; ++c)
-      result[c] = tangential * u[c] + (along - tangential) * towards * normal_[c];
-    return result;
+  static std::array<Single, 3> product(const PointTie& tie, const std::array<Single, 3>& u) {
+    const Eigen::Vector3f taken = tie.inertia * Eigen::Map<const Eigen::Vector3f>(u.data());
+    return {taken[0], taken[1], taken[2]};
   }
 
   void begin(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
@@ -256,7 +258,7 @@ class Multigrid::Cycle {
       loops().find_residual(a, grid.blocks.data() + from, to - from);
     });
     over_contact(fields, [&](const PointTie& tie) {
-      const auto taken = product(at(fields.solution, tie.point), tie.along, tie.tangential);
+      const auto taken = product(tie, at(fields.solution, tie.point));
       for (std::size_t c = 0; c < 3; ++c) fields.residual[c][tie.point] -= taken[c];
     });
   }
@@ -268,7 +270,7 @@ class Multigrid::Cycle {
     });
     over_contact(fields, [&](const PointTie& tie) {
       const auto before = at(fields.solution, tie.point), plain = at(fields.residual, tie.point);
-      const auto taken = product(before, tie.along, tie.tangential);
+      const auto taken = product(tie, before);
       std::array<Single, 3> residual{};
       for (std::size_t c = 0; c < 3; ++c) {
         const Single relaxation = matrix.relaxation[c][tie.point];
@@ -322,14 +324,12 @@ class Multigrid::Cycle {
   }
 
   const Multigrid* grids_;
-  std::array<Single, 3> normal_;
   Team* team_;
   MultigridFields* fields_;
 };
 
-void Multigrid::solve(const meshes::Vector3& normal, Team& team, MultigridFields& fields) const {
-  const std::array<Single, 3> along{Single(normal[0]), Single(normal[1]), Single(normal[2])};
-  Cycle(*this, along, team, fields).run(0);
+void Multigrid::solve(Team& team, MultigridFields& fields) const {
+  Cycle(*this, team, fields).run(0);
 }
 
 }  // namespace fingertip::lattice::inline dynamics::inline scaling

@@ -1,6 +1,7 @@
 /// An approximate inverse of inertia plus a graph Laplacian, that never exceeds it.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <memory>
 #include <vector>
@@ -15,10 +16,10 @@ namespace fingertip::lattice::inline dynamics::inline scaling {
 
 using sweeps::Single;
 
-/// Inertia of a point against a plane [kg]: `along` its normal, `tangential` in it.
+/// Inertia of a point against a plane [kg].
 struct PointTie {
   std::uint32_t point = 0;
-  Single along = 0.0F, tangential = 0.0F;
+  Eigen::Matrix3f inertia = Eigen::Matrix3f::Zero();
 };
 
 /// What Multigrid::solve works with.
@@ -60,8 +61,7 @@ class Multigrid {
 
   /// levels[0].solution = B levels[0].load; load, 0 where no node is, and levels[0].contact have
   /// been set.
-  /// `normal` of the plane, a unit vector along the grid's axes.
-  void solve(const meshes::Vector3& normal, Team& team, MultigridFields& fields) const;
+  void solve(Team& team, MultigridFields& fields) const;
 
  private:
   using Field = MultigridFields::Field;

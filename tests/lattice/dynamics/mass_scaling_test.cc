@@ -376,7 +376,8 @@ TEST(Restraint, IsLargeOnThePatchNothingAtTheBondAndBoundsWhatTheRodFeels) {
   const Vector3 normal = model.grid.axes.transpose() * -Vector3::UnitZ();
   for (const std::uint32_t i : model.particles)
     if (model.rest_position(i).z() > 0.0095)
-      ties.push_back({i, held, 0.0, model.grid.axes.transpose() * model.rest_position(i)});
+      ties.push_back({i, held * normal * normal.transpose(),
+                      model.grid.axes.transpose() * model.rest_position(i)});
   lattice::PlaneHold plane;
   plane.ties = ties;
   plane.normal = normal;
@@ -400,10 +401,12 @@ TEST(Restraint, IsLargeOnThePatchNothingAtTheBondAndBoundsWhatTheRodFeels) {
   EXPECT_LT(std::abs(slide.dot(restraint.inertia * slide)), 1e-12 * felt);
   // Found anew when the plane has turned, and not before.
   const auto shares = restraint.share[0];
-  for (lattice::ContactInertia& tie : ties) tie.along *= 1.05;
+  for (lattice::ContactInertia& tie : ties) tie.inertia *= 1.05;
   scaling.restrain(State(model), plane, team, fields, restraint);
   EXPECT_EQ(restraint.share[0], shares);
   plane.normal = (normal + 0.3 * normal.unitOrthogonal()).normalized();
+  for (lattice::ContactInertia& tie : ties)
+    tie.inertia = held * plane.normal * plane.normal.transpose();
   scaling.restrain(State(model), plane, team, fields, restraint);
   EXPECT_NE(restraint.share[0], shares);
   for (const std::uint32_t i : model.particles)

@@ -25,7 +25,6 @@ struct Scene {
   lattice::EdgeInertia edges;
   std::shared_ptr<const GridHierarchy> hierarchy;
   std::vector<lattice::PointTie> contact;
-  Vector3 normal = Vector3(1.0, -2.0, 2.0) / 3.0;
 
   Scene(int per_radius, double step, bool touches, int sectors)
       : Scene(per_radius, step, touches, sectors, sectors > 1) {}
@@ -36,7 +35,6 @@ struct Scene {
     settings.constants = lattice::hookean_constants({}, settings.spacing);
     settings.offset = even ? Vector3(0.0, 0.0, 0.1) : Vector3(0.3, -0.2, 0.1);
     model = lattice::build_tip({}, {}, settings, sectors);
-    if (even) normal = model.grid.axes.transpose() * Vector3(0.0, 0.0, -1.0);
     hierarchy = std::make_shared<GridHierarchy>(model);
     const std::size_t points = hierarchy->levels().front().points();
     for (auto& component : edges) component.fill(std::vector<float>(points, 0.0F));
@@ -46,7 +44,12 @@ struct Scene {
       const Vector3 at = (model.rest_position(i) / settings.spacing).cwiseAbs();
       const long place = std::lround(at.x()) + 2 * std::lround(at.y()) + std::lround(at.z());
       if (!touches || place % 3 != 0) continue;
-      contact.push_back({i, float(50.0 * model.mass[i]), float(double(place % 2) * model.mass[i])});
+      // Each on a surface of its own.
+      const Vector3 normal = model.grid.axes.transpose() * model.rest_position(i).normalized();
+      const Eigen::Matrix3d along = normal * normal.transpose();
+      contact.push_back(
+          {i, (model.mass[i] * (50.0 * along + double(place % 2) * Eigen::Matrix3d::Identity()))
+                  .cast<float>()});
     }
   }
 
@@ -64,8 +67,7 @@ struct Scene {
       }
     }
     for (const lattice::PointTie& tie : contact) {
-      const Vector3 v = u.at(tie.point), along = normal.dot(v) * normal;
-      result.add(tie.point, double(tie.along) * along + double(tie.tangential) * (v - along));
+      result.add(tie.point, tie.inertia.cast<double>() * u.at(tie.point));
     }
     return held(model, result);
   }
@@ -95,7 +97,7 @@ class Solver {
     MultigridFields::Level& finest = fields_.levels[0];
     for (const std::uint32_t i : scene_->model.particles)
       for (std::size_t c = 0; c < 3; ++c) finest.load[c][i] = float(load.component[c][i]);
-    grids_.solve(scene_->normal, team_, fields_);
+    grids_.solve(team_, fields_);
     VectorField result(scene_->model.points());
     for (const std::uint32_t i : scene_->model.particles)
       result.set(i, Vector3(finest.solution[0][i], finest.solution[1][i], finest.solution[2][i]));

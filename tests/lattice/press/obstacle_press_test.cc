@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "lattice/press/press.h"
@@ -70,6 +71,34 @@ TEST(ObstaclePress, AnObstacleOnTheOtherSideGivesTheMirrorImage) {
       }
     }
   }
+}
+
+/// What is held along a ball's normal alone must not be heavy along its surface.
+TEST(ObstaclePress, ScaledMassesSlideAlongABall) {
+  const Obstacle ball{.shape = ObstacleShape::sphere, .radius = 8e-3, .offset = 1e-3};
+  PressSetup setup = press_on(ball, ModelKind::network, ContactMode::frictionless);
+  setup.protocol.samples = {1e-3, 2e-3};
+  setup.protocol.depth = 2e-3;
+  setup.protocol.mode = DriveMode::quasi_static;
+  const auto plain = lattice::run_press(setup).response;
+  setup.integrator = lattice::Integrator::mass_scaled;
+  setup.time_step = 1e-3;
+  const auto scaled = lattice::run_press(setup).response;
+  ASSERT_EQ(scaled.samples().size(), plain.samples().size());
+  double squares = 0.0, of_torque = 0.0;
+  int compared = 0;
+  for (std::size_t i = 0; i < plain.samples().size(); ++i) {
+    const meshes::PressSample &as_is = plain.samples()[i], &heavy = scaled.samples()[i];
+    if (as_is.indentation < 1e-3) continue;
+    EXPECT_LT(as_is.lateral_force_x, 0.0);
+    squares += std::pow(heavy.lateral_force_x / as_is.lateral_force_x - 1.0, 2);
+    of_torque += std::pow(heavy.torque_y / as_is.torque_y - 1.0, 2);
+    ++compared;
+  }
+  std::printf("lateral force off by %.3g in root mean square, torque by %.3g\n",
+              std::sqrt(squares / compared), std::sqrt(of_torque / compared));
+  EXPECT_LT(std::sqrt(squares / compared), 0.035);
+  EXPECT_LT(std::sqrt(of_torque / compared), 0.035);
 }
 
 TEST(ObstaclePress, ALargeBallIsAPlane) {
