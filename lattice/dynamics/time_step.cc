@@ -17,8 +17,6 @@ constexpr double volume_change_of_a_step = 0.1;
 /// Growth of the cells' extremes that the step allows for.
 constexpr double allowance = 1.2;
 
-/// Of mass_scaled [s]: a quarter of the usual control period.
-constexpr double usual_step = 2.5e-4;
 constexpr double longest_scaled = 1e-3;
 
 /// Of spans, which are differences of times: what they may exceed a whole number of steps by.
@@ -119,7 +117,7 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
       rod_stiffness_(bonded_rod(model, rod)) {
   const bool scaled = integrator == Integrator::mass_scaled;
   const SpectralBounds bounds = scaled ? scaled_bounds() : tightest_bounds(model, rod);
-  if (scaled && !wanted) wanted = usual_step;
+  if (scaled && !wanted) wanted = usual_scaled_step;
   if (model.kind == ModelKind::published) {
     report_.omega0 = paper_frequency(model);
     report_.paper_bound = 1.0 / report_.omega0;

@@ -43,6 +43,9 @@ double paper_frequency(const LatticeModel& model);
 /// motion is prescribed.
 SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod);
 
+/// Of mass_scaled where none is wanted [s]: a quarter of the usual control period.
+inline constexpr double usual_scaled_step = 2.5e-4;
+
 /// Chooses the steps of a press: the largest stable one times a safety factor (small kinematics
 /// 0.95; finite 0.9 where the cells tell how they stiffen, 0.8 for springs alone, which do not), at
 /// most `wanted` if given.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <memory>
 #include <numbers>
 
 #include "lattice/dynamics/time_step.h"
@@ -23,17 +24,29 @@ constexpr double contact_factor = 5.5;   // chi, with the margin that S leaves f
 constexpr double resolved_patch = 1.25;  // spacings
 constexpr double cost = 2.0;             // of a scaled step, in plain ones
 
+/// A x² + B x³ + D y² + T, at most C, or E z where that is more; never more than half of the force.
+struct GridError {
+  double contact = 0.0, edge = 0.0, wall = 0.0, point = 0.0, points = 0.0, ties = 3e-3;
+  double at(double x, double y, double z) const {
+    const double most = std::max(point, std::min(points * z, 0.5));
+    return std::min((contact + edge * x) * x * x + wall * y * y + ties, most);
+  }
+};
+constexpr GridError solid_cells{0.06, 0.15, 0.2, 0.24, 0.15};   // hookean, network
+constexpr GridError springs_alone{0.04, 0.1, 1.7, 0.18, 0.25};  // central
+
 /// F = factor (delta^3/2 + layer delta²).
 struct RoughForce {
-  double factor = 0.0, layer = 0.0, pole_radius = 0.0;
+  double factor = 0.0, layer = 0.0, pole_radius = 0.0, wall = 0.0;
 
   RoughForce(const Geometry& geometry, const Rubber& rubber, const meshes::Obstacle& obstacle) {
     const auto shape = meshes::shape_of(geometry);
     pole_radius = meshes::relative_radius(*shape, obstacle);
+    wall = shape->wall();
     const double nu = rubber.poissons_ratio(), radius = std::sqrt(pole_radius),
                  alpha = (1.2876 - 1.4678 * nu + 1.3442 * nu * nu) / (1.0 - nu);
     factor = 4.0 / 3.0 * rubber.youngs_modulus / (1.0 - nu * nu) * radius;
-    layer = 2.0 / std::numbers::pi * alpha * radius / shape->wall();
+    layer = 2.0 / std::numbers::pi * alpha * radius / wall;
   }
   double value(double d) const { return factor * (std::pow(d, 1.5) + layer * d * d); }
   double slope(double d) const { return factor * (1.5 * std::sqrt(d) + 2.0 * layer * d); }
@@ -97,19 +110,38 @@ double largest_difference(const Swing& a, const Swing& b, double time) {
   return std::abs(a.amplitude - b.amplitude);
 }
 
-double sway_deviation(const Sway& sway, const PressSetup& setup, double step, double time) {
+/// The sway's amplitude at a time with plain masses, and what masses scaled to `step` change of it;
+/// of the sum of the modes [N].
+struct SwayForce {
+  double plain = 0.0, scaled = 0.0;
+};
+SwayForce sway_force(const Sway& sway, const PressSetup& setup, double step, double time) {
   const double speed = setup.protocol.speed, tau = setup.rubber.retardation_time;
   const meshes::PressMotion approach(setup.protocol);
-  double sum = 0.0;
+  SwayForce sum;
   for (const double n : {1.0, 3.0, 5.0}) {
     const double w = n * sway.frequency, mass = sway.mass / (n * n),
                  s = sway_factor * w * w * step * step;
     const auto swing = [&](double inertia) {
       return swing_of(mass, w, inertia, tau, approach, speed, time);
     };
-    sum += largest_difference(swing(s), swing(0.0), time - 0.5 * approach.rise_time());
+    sum.plain += std::abs(swing(0.0).amplitude);
+    sum.scaled += largest_difference(swing(s), swing(0.0), time - 0.5 * approach.rise_time());
   }
   return sum;
+}
+
+/// What scaled masses change at a depth, relative to the force.
+double scaled_deviation(const PressSetup& setup, const RoughForce& force, const Sway& sway,
+                        double step, double depth) {
+  const double v = setup.protocol.speed,
+               filter = contact_factor *
+                        (0.25 * step * step + 0.5 * step * setup.rubber.retardation_time),
+               patch = std::sqrt(force.pole_radius * depth),
+               contact = filter * v * v * force.curvature(depth) +
+                         v * std::sqrt(filter) * force.slope(depth) * setup.lattice.spacing / patch,
+               time = meshes::PressMotion(setup.protocol).time_at(depth);
+  return (contact + sway_force(sway, setup, step, time).scaled) / force.value(depth);
 }
 
 /// Of a program: one press to its depth at its largest speed, for deviations grow with it.
@@ -181,23 +213,14 @@ ActuatorLimits suitable_limits(const PressSetup& setup) {
 std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup_with_program, double step) {
   const PressSetup setup = pressed_once(setup_with_program);
   const meshes::PressProtocol& protocol = setup.protocol;
-  const RoughForce force(setup.geometry, setup.rubber, setup.protocol.obstacle);
+  const RoughForce force(setup.geometry, setup.rubber, protocol.obstacle);
   const Sway sway(setup.geometry, setup.rubber);
-  const meshes::PressMotion approach(protocol);
-  const double v = protocol.speed, spacing = setup.lattice.spacing,
-               filter = contact_factor *
-                        (0.25 * step * step + 0.5 * step * setup.rubber.retardation_time);
   std::vector<ForceDeviation> found;
   const auto depths =
       protocol.samples.empty() ? meshes::default_samples(protocol.depth) : protocol.samples;
   for (const double depth : depths) {
-    const double patch = std::sqrt(force.pole_radius * depth);
-    if (patch < resolved_patch * spacing) continue;
-    const double time = approach.time_at(depth);
-    const double contact = filter * v * v * force.curvature(depth) +
-                           v * std::sqrt(filter) * force.slope(depth) * spacing / patch;
-    found.push_back(
-        {depth, (contact + sway_deviation(sway, setup, step, time)) / force.value(depth)});
+    if (std::sqrt(force.pole_radius * depth) < resolved_patch * setup.lattice.spacing) continue;
+    found.push_back({depth, scaled_deviation(setup, force, sway, step, depth)});
   }
   return found;
 }
@@ -216,8 +239,7 @@ double judged_from(const PressSetup& setup) {
 }
 
 ScalingChoice best_scaling(const PressSetup& setup) {
-  constexpr double longest = 2.5e-4;  // [s]
-  return best_scaling(setup, longest, judged_from(setup));
+  return best_scaling(setup, usual_scaled_step, judged_from(setup));
 }
 
 ScalingChoice best_scaling(const PressSetup& setup, double longest, double from) {
@@ -234,6 +256,81 @@ ScalingChoice best_scaling(const PressSetup& setup, double longest, double from)
 ScalingChoice choose_scaling(const PressSetup& setup) {
   if (!setup.time_step) return best_scaling(setup);
   return {true, *setup.time_step, scaling_deviations(setup, *setup.time_step)};
+}
+
+namespace {
+
+/// A rubber of Poisson's ratio 1/4 and the same E.
+Rubber quarter_of(Rubber rubber) {
+  rubber.shear_modulus = rubber.youngs_modulus / 2.5;
+  return rubber;
+}
+
+}  // namespace
+
+struct ForceEstimator::Terms {
+  PressSetup setup;
+  RoughForce force, of_quarter;
+  std::optional<Sway> sway;  ///< in presses in time
+  double scaled_step = 0.0;  ///< of scaled masses [s]; 0: plain ones
+
+  explicit Terms(const PressSetup& with_program)
+      : setup(pressed_once(with_program)),
+        force(setup.geometry, setup.rubber, setup.protocol.obstacle),
+        of_quarter(setup.geometry, quarter_of(setup.rubber), setup.protocol.obstacle) {
+    if (setup.protocol.mode == meshes::DriveMode::equilibrium) return;
+    sway.emplace(setup.geometry, setup.rubber);
+    if (setup.integrator != Integrator::mass_scaled) return;
+    if (const ScalingChoice choice = choose_scaling(setup); choice.scaled)
+      scaled_step = choice.step;
+  }
+
+  /// Of a patch of this radius, or else Hertz'.
+  double grid(double spacing, std::optional<double> patch, double depth) const {
+    const double hertz = std::sqrt(force.pole_radius * depth);
+    const bool central = setup.lattice.model == ModelKind::central;
+    return (central ? springs_alone : solid_cells)
+        .at(spacing / patch.value_or(hertz), spacing / force.wall, spacing / hertz);
+  }
+  double model(double depth) const {
+    if (setup.lattice.model != ModelKind::central) return 0.0;
+    return std::abs(of_quarter.value(depth) / force.value(depth) - 1.0);
+  }
+  double motion(double depth) const {
+    if (!sway) return 0.0;
+    const double damping =
+                     setup.rubber.retardation_time * setup.protocol.speed * force.slope(depth),
+                 time = meshes::PressMotion(setup.protocol).time_at(depth),
+                 swings = sway_force(*sway, setup, 0.0, time).plain;
+    return (damping + swings) / force.value(depth) +
+           (scaled_step > 0.0 ? scaled_deviation(setup, force, *sway, scaled_step, depth) : 0.0);
+  }
+};
+
+ForceEstimator::ForceEstimator(const PressSetup& setup) {
+  if (setup.lattice.model != ModelKind::published) terms_ = std::make_shared<const Terms>(setup);
+}
+
+std::optional<ForceEstimate> ForceEstimator::of(const meshes::PressSample& sample) const {
+  const double depth = sample.indentation, patch = sample.contact_radius;
+  if (!terms_ || !(sample.normal_force > 0.0 && depth > 0.0 && patch > 0.0)) return {};
+  return ForceEstimate{terms_->grid(terms_->setup.lattice.spacing, patch, depth),
+                       terms_->model(depth), terms_->motion(depth)};
+}
+
+std::optional<double> ForceEstimator::grid(double depth) const {
+  if (!terms_) return {};
+  return terms_->grid(terms_->setup.lattice.spacing, {}, depth);
+}
+
+std::optional<double> ForceEstimator::spacing_for(double depth, double tolerance) const {
+  if (!terms_) return {};
+  double fine = 0.0, coarse = terms_->setup.geometry.tip_radius;
+  for (int n = 0; n < 40; ++n) {
+    const double middle = 0.5 * (fine + coarse);
+    (terms_->grid(middle, {}, depth) <= tolerance ? fine : coarse) = middle;
+  }
+  return fine;
 }
 
 }  // namespace fingertip::lattice::inline press

@@ -19,6 +19,21 @@ namespace {
 
 constexpr const char* chosen_place = "default for this finger";
 
+void take_spacing(LoadedConfig& loaded, double divisor) {
+  lattice::PressSetup& press = loaded.config.press;
+  loaded.config.spacing_divisor = divisor;
+  press.lattice.spacing = press.geometry.tip_radius / divisor;
+}
+
+/// From which the tolerance is to be kept [m]. Where no samples are asked for, the protocol has
+/// usual ones by now.
+double first_depth(const LoadedConfig& loaded) {
+  const meshes::PressProtocol& protocol = loaded.config.press.protocol;
+  const Entry& entry = loaded.entries.at("press.samples");
+  const bool asked = entry.given && entry.literal != find_key("press.samples")->preset;
+  return asked ? protocol.samples.front() : 0.1 * protocol.depth;
+}
+
 void choose_spacing(LoadedConfig& loaded) {
   Config& config = loaded.config;
   Entry& entry = loaded.entries.at("lattice.spacing");
@@ -28,8 +43,7 @@ void choose_spacing(LoadedConfig& loaded) {
                coarsest = lattice::coarsest_spacing(config.press.geometry, lattice.model);
   // Of an invalid dome it may be anything.
   if (!(coarsest > 0.0 && coarsest < lattice.spacing)) return;
-  config.spacing_divisor = std::ceil(radius / coarsest);
-  lattice.spacing = radius / *config.spacing_divisor;
+  take_spacing(loaded, std::ceil(radius / coarsest));
   entry = {fmt::format("\"tip_radius/{:.0f}\"", *config.spacing_divisor), chosen_place, false};
 }
 
@@ -50,6 +64,27 @@ void choose_for_finger(LoadedConfig& loaded) {
   if (protocol.samples.empty() && protocol.program.empty())
     choose_depth(loaded, "press.depth", protocol.depth);
   choose_depth(loaded, "calibration.depth", loaded.config.calibration.depth);
+}
+
+void choose_automatic_spacing(LoadedConfig& loaded) {
+  const Config& config = loaded.config;
+  if (!config.automatic_spacing) return;
+  const lattice::PressSetup& press = config.press;
+  const meshes::Geometry& geometry = press.geometry;
+  const auto divisor_of = [&](double spacing) {
+    constexpr double round_off = 1e-9;
+    return std::ceil(geometry.tip_radius / spacing * (1.0 - round_off));
+  };
+  const double usual = meshes::Geometry().tip_radius / lattice::LatticeSettings().spacing,
+               coarsest = divisor_of(lattice::coarsest_spacing(geometry, press.lattice.model));
+  const auto wanted =
+      lattice::ForceEstimator(press).spacing_for(first_depth(loaded), config.spacing_tolerance);
+  double divisor = wanted ? divisor_of(*wanted) : std::round(usual);
+  // Masses go with the cube.
+  const double masses = meshes::expected_particle_count(geometry, geometry.tip_radius / divisor);
+  if (masses > config.max_particles)
+    divisor = std::floor(divisor * std::cbrt(config.max_particles / masses));
+  take_spacing(loaded, std::max(divisor, coarsest));
 }
 
 void choose_limits(LoadedConfig& loaded) {
@@ -109,19 +144,51 @@ std::string thin_part(const meshes::Geometry& geometry) {
       meshes::expected_particle_count(geometry, geometry.tip_radius / divisor));
 }
 
+namespace {
+
+/// What an automatic spacing of so many masses is good for.
+std::string accuracy_note(const LoadedConfig& loaded, double masses) {
+  const Config& config = loaded.config;
+  const double depth = first_depth(loaded), wanted = config.spacing_tolerance;
+  const auto error = lattice::ForceEstimator(config.press).grid(depth);
+  std::string text;
+  if (masses > config.max_particles)
+    text =
+        fmt::format("more than lattice.max_particles = {:.3g}, for the finger's walls ask for it; ",
+                    config.max_particles);
+  else if (error && *error > wanted)
+    text = fmt::format("as fine as lattice.max_particles = {:.3g} allows; ", config.max_particles);
+  if (!error) return text + "the published model has no estimate of its force's error";
+  return text + fmt::format(
+                    "it may put {:.2g} % on the force at {:.3g} mm, and less below ({:.3g} % "
+                    "wanted)",
+                    100.0 * *error, 1e3 * depth, 100.0 * wanted);
+}
+
+}  // namespace
+
 std::vector<std::string> spacing_notes(const LoadedConfig& loaded) {
   constexpr double many = 1e6;
   const Entry& entry = loaded.entries.at("lattice.spacing");
-  if (entry.place != chosen_place) return {};
+  const bool automatic = loaded.config.automatic_spacing;
+  if (entry.place != chosen_place && !automatic) return {};
   const meshes::Geometry& geometry = loaded.config.press.geometry;
   const double spacing = loaded.config.press.lattice.spacing,
                masses = meshes::expected_particle_count(geometry, spacing);
-  const std::string thin = masses > many ? thin_part(geometry) : "";
-  return {
-      fmt::format("lattice.spacing = {} ({:.3g} mm, some {:.2g} masses) is the coarsest that "
-                  "this finger's walls allow; the usual {} is too coarse for them{}{}",
-                  entry.literal, 1e3 * spacing, masses, find_key("lattice.spacing")->preset,
-                  thin.empty() ? "" : "; ", thin)};
+  std::string why;
+  if (automatic) {
+    why = accuracy_note(loaded, masses);
+  } else {
+    const std::string thin = masses > many ? thin_part(geometry) : "";
+    why = fmt::format(
+        "the coarsest that this finger's walls allow; the usual {} is too coarse for "
+        "them{}{}",
+        find_key("lattice.spacing")->preset, thin.empty() ? "" : "; ", thin);
+  }
+  return {fmt::format(
+      "lattice.spacing = {} ({}{:.3g} mm, some {:.2g} masses): {}", entry.literal,
+      automatic ? fmt::format("tip_radius/{:.0f}, ", *loaded.config.spacing_divisor) : "",
+      1e3 * spacing, masses, why)};
 }
 
 }  // namespace fingertip::studies::inline config

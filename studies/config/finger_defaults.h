@@ -10,11 +10,19 @@ namespace fingertip::studies::inline config {
 /// walls; a tenth of its thickness. The entries say so in place of "default".
 void choose_for_finger(LoadedConfig& loaded);
 
+/// Of lattice.spacing = "auto" the coarsest tip_radius/N, N whole, that the finger's walls allow
+/// and whose estimate (lattice::ForceEstimator::grid) keeps lattice.tolerance from the first asked
+/// depth on, or from a tenth of the depth, with no more masses than lattice.max_particles where the
+/// walls allow that; of the published model, which has no estimate, tip_radius/12 likewise. The
+/// configuration must be valid.
+void choose_automatic_spacing(LoadedConfig& loaded);
+
 /// The same of controller.force_limit and torque_limit, where a press under the controller is
 /// expected to meet them: lattice::suitable_limits. The configuration must be valid.
 void choose_limits(LoadedConfig& loaded);
 
-/// What choose_for_finger has taken for a lattice; empty where the default stands or one is given.
+/// What choose_for_finger or choose_automatic_spacing has taken for a lattice; empty where the
+/// default stands or one is given.
 std::vector<std::string> spacing_notes(const LoadedConfig& loaded);
 
 /// Where little of what may touch rules the spacing: how much rubber lies behind the rest, and what

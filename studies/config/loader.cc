@@ -265,6 +265,7 @@ LoadedConfig Reader::finish() {
     if (!unread) problems_.push_back(problem);
   }
   if (!problems_.empty()) throw ConfigError(problems_);
+  choose_automatic_spacing(loaded_);
   choose_limits(loaded_);
   const std::vector<std::string> inert = inert_keys(loaded_);
   loaded_.notes.insert(loaded_.notes.end(), inert.begin(), inert.end());

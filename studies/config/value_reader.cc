@@ -63,7 +63,8 @@ double read_fraction(const Key& key, const std::string& text) {
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data() + prefix.size(), end, divisor);
   if (error != std::errc() || rest != end || !std::isfinite(divisor) || !(divisor > 0.0)) {
-    refuse("must be a length or " + key.word + " with a number N > 0", preset_advice(key));
+    refuse("must be a length, \"auto\" or " + key.word + " with a number N > 0",
+           preset_advice(key));
   }
   return divisor;
 }
@@ -77,6 +78,10 @@ Value read_quantity(const Key& key, const toml::node& node) {
     refuse("the unit is missing", "write it as \"" + key.example() + "\"");
   }
   Value value;
+  if (key.may_be_automatic && text->get() == "auto") {
+    value.word = "auto";
+    return value;
+  }
   if (is_pattern(key.word) && text->get().starts_with(key.word.substr(0, key.word.find('N')))) {
     value.word = key.word;
     value.number = read_fraction(key, text->get());

@@ -117,6 +117,7 @@ Json frame_json(const LiveFrame& frame, std::size_t rows) {
   if (picture.measured.contact) {
     json["touching"] = picture.measured.contact->touching;
     json["contact_radius"] = picture.measured.contact->radius;
+    json["force_error"] = picture.force_error;
   }
   if (picture.hand_place) {
     json["hand"] = wrench_json(picture.hand);

@@ -1,6 +1,9 @@
 #include "studies/live/rig.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "lattice/dynamics/time_step.h"
 
 namespace fingertip::studies::inline live {
 
@@ -41,6 +44,13 @@ double within(double value, const Span& span) {
   return std::clamp(value, span.least, span.most);
 }
 
+/// With the step that a live lattice takes: its scaled masses know no press to choose one for.
+lattice::PressSetup at_speed(lattice::PressSetup setup, double speed) {
+  setup.protocol.speed = speed;
+  if (!setup.time_step) setup.time_step = lattice::usual_scaled_step;
+  return setup;
+}
+
 }  // namespace
 
 LiveRig::LiveRig(const lattice::PressSetup& setup)
@@ -50,7 +60,8 @@ LiveRig::LiveRig(const lattice::PressSetup& setup)
       boundary_(finger_.model(), setup.geometry),
       limits_(limits_for(setup_)),
       set_point_(setup.protocol.speed, setup.protocol.clearance + setup.protocol.depth,
-                 setup.protocol.clearance, setup.controller.period) {
+                 setup.protocol.clearance, setup.controller.period),
+      estimator_(at_speed(setup_, setup.protocol.speed)) {
   settings_ = {setup.protocol.speed, setup.protocol.depth, setup.controller.natural_frequency,
                setup.controller.derivative_filter, setup.controller.bond_compensation};
   lattice::ControlTask task = lattice::control_task(setup_, way_, finger_.rod_body());
@@ -124,6 +135,8 @@ void LiveRig::set(const LiveSettings& wanted) {
     set_point_.restart(indentation() + setup_.protocol.clearance);
   }
   controller_->switch_on(next.controller);
+  if (next.speed != settings_.speed)
+    estimator_ = lattice::ForceEstimator(at_speed(setup_, next.speed));
   settings_ = next;
 }
 
@@ -145,6 +158,16 @@ LiveRow LiveRig::row() const {
   return row;
 }
 
+double LiveRig::force_error(const LiveRow& row, const lattice::Measurement& measured) const {
+  if (!measured.contact) return meshes::unknown;
+  meshes::PressSample sample;
+  sample.indentation = row.indentation;
+  sample.normal_force = row.normal_force;
+  sample.contact_radius = measured.contact->radius;
+  const auto estimate = estimator_.of(sample);
+  return estimate ? estimate->sum() * sample.normal_force : meshes::unknown;
+}
+
 LivePicture LiveRig::picture() const {
   LivePicture picture;
   picture.row = row();
@@ -152,6 +175,7 @@ LivePicture LiveRig::picture() const {
   picture.commanded = loop_->commanded();
   picture.hand = controller_->hand().last();
   picture.hand_place = controller_->hand().place();
+  picture.force_error = force_error(picture.row, picture.measured);
   picture.finger = lattice::take_picture(finger_.finger(), boundary_, picture.row.indentation);
   return picture;
 }

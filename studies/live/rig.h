@@ -9,7 +9,9 @@
 
 #include "lattice/control/control_loop.h"
 #include "lattice/press/boundary_view.h"
+#include "lattice/press/press_deviation.h"
 #include "lattice/press/press_task.h"
+#include "meshes/tables/file_fields.h"
 #include "studies/live/live_controller.h"
 #include "studies/live/moving_set_point.h"
 
@@ -63,9 +65,10 @@ struct LiveRow {
 /// Everything a picture needs. SI, world axes.
 struct LivePicture {
   LiveRow row;
-  lattice::Measurement measured;  ///< as a perfect sensor would
-  lattice::Wrench commanded;      ///< by controller and hand, before the actuators' limits
-  lattice::Wrench hand;           ///< of the hand alone
+  lattice::Measurement measured;         ///< as a perfect sensor would
+  lattice::Wrench commanded;             ///< by controller and hand, before the actuators' limits
+  lattice::Wrench hand;                  ///< of the hand alone
+  double force_error = meshes::unknown;  ///< estimated for a press at the slider's speed [N]
   std::optional<meshes::Vector3> hand_place;
   lattice::FingerPicture finger;
 };
@@ -102,6 +105,7 @@ class LiveRig {
  private:
   double indentation() const;
   void check_sanity() const;
+  double force_error(const LiveRow& row, const lattice::Measurement& measured) const;
 
   lattice::PressSetup setup_;
   lattice::PressWay way_;
@@ -112,6 +116,7 @@ class LiveRig {
   MovingSetPoint set_point_;
   std::unique_ptr<LiveController> controller_;
   std::unique_ptr<lattice::ControlLoop> loop_;
+  lattice::ForceEstimator estimator_;  ///< at the slider's speed
 };
 
 }  // namespace fingertip::studies::inline live

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lattice/press/press_deviation.h"
 #include "studies/presses/press_setup.h"
 
 namespace fingertip::studies::inline presses {
@@ -30,29 +31,42 @@ double relative_error_at(std::span<const PressSample> samples, double depth) {
 
 }  // namespace
 
+ErrorSource estimated_source(lattice::ModelKind model, const std::string& why) {
+  if (model == lattice::ModelKind::published)
+    return {{}, false, "not known: " + why + ", and the published model has no estimate"};
+  return {{}, true, "estimated" + (why.empty() ? why : ", for " + why)};
+}
+
 ErrorSource error_source(const LoadedConfig& loaded) {
   const Config& config = loaded.config;
-  if (config.force_error == ForceErrorBy::nothing) return {};
-  const auto unknown = [](const std::string& why) { return ErrorSource{{}, "not known: " + why}; };
+  const ForceErrorBy by = config.force_error;
+  if (by == ForceErrorBy::nothing) return {};
+  const auto estimated = [&](const std::string& why) {
+    return estimated_source(config.press.lattice.model, why);
+  };
+  if (by == ForceErrorBy::estimate)
+    return estimated(config.press.lattice.model == lattice::ModelKind::published
+                         ? "the continuum is not asked"
+                         : "");
   ReferenceJob reference;
   try {
     reference = continuum_at_rest(loaded, loaded.entries.at("reference.strain").given
                                               ? config.reference.strain
                                               : strain_of(config.press.lattice.kinematics));
   } catch (const ConfigError& error) {
-    return unknown("the continuum refuses this press: " + error.violations().front().rule);
+    return estimated("the continuum refuses this press (" + error.violations().front().rule + ")");
   }
   reference.estimate_error = true;
   if (!config.press.protocol.program.empty())
-    return unknown("the continuum beside a press knows no program");
-  if (config.force_error == ForceErrorBy::automatic) {
-    const std::string found = "; run.error = \"continuum\" finds it";
-    if (!reference.axisymmetric()) return unknown("the continuum is a solid" + found);
+    return estimated("the continuum beside a press knows no program");
+  if (by == ForceErrorBy::automatic) {
+    const std::string found = " (run.error = \"continuum\" presses it)";
+    if (!reference.axisymmetric()) return estimated("the continuum is a solid" + found);
     if (!reference.rubber.relaxation.empty())
-      return unknown("the continuum of a rubber that relaxes takes many steps" + found);
+      return estimated("the continuum of a rubber that relaxes takes many steps" + found);
   }
   const bool linear = reference.strain == fem_reference::Strain::linear;
-  return {reference,
+  return {reference, false,
           std::string("from the continuum at ") + (linear ? "small" : "large") + " strain"};
 }
 
@@ -79,6 +93,17 @@ PressResponse with_force_error(const PressResponse& response, const PressRespons
         sample.force_error =
             std::abs(sample.normal_force - beside->normal_force) + beside->force_error;
     }
+  }
+  return PressResponse(std::move(samples));
+}
+
+PressResponse with_estimated_error(const PressResponse& response,
+                                   const lattice::PressSetup& setup) {
+  std::vector<PressSample> samples = response.samples();
+  const lattice::ForceEstimator estimator(setup);
+  for (PressSample& sample : samples) {
+    const auto estimate = estimator.of(sample);
+    sample.force_error = estimate ? estimate->sum() * sample.normal_force : meshes::unknown;
   }
   return PressResponse(std::move(samples));
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fem_reference/job/job.h"
+#include "lattice/press/press_setup.h"
 #include "meshes/press/press_response.h"
 #include "studies/config/loaded_config.h"
 
@@ -14,13 +15,18 @@ namespace fingertip::studies::inline presses {
 struct ErrorSource {
   /// The continuum's press at rest; empty: none.
   std::optional<fem_reference::ReferenceJob> continuum;
-  /// "from the continuum at small strain", or why there is no error; empty where none is wanted.
+  bool estimated = false;  ///< by lattice::ForceEstimator
+  /// "from the continuum at small strain", "estimated, for the continuum is a solid", or why there
+  /// is no error; empty where none is wanted.
   std::string statement;
 };
 
 /// What `run.error` means for this press. The continuum's strain is the lattice's unless
-/// reference.strain is given.
+/// reference.strain is given. Where the continuum cannot, or takes long, the error is estimated.
 ErrorSource error_source(const LoadedConfig& loaded);
+
+/// What is left where the continuum is not to be had: `why` is a sentence's end.
+ErrorSource estimated_source(lattice::ModelKind model, const std::string& why);
 
 /// `response` with force_error = |F - F_continuum| plus the continuum's own error [N], from the
 /// first depth of the continuum to its last, and of a lateral motion where both have the same
@@ -28,5 +34,10 @@ ErrorSource error_source(const LoadedConfig& loaded);
 /// relative error is the larger one of both sides.
 meshes::PressResponse with_force_error(const meshes::PressResponse& response,
                                        const meshes::PressResponse& continuum);
+
+/// `response` of `setup` with the estimate of lattice::ForceEstimator as force_error [N]; unknown where there is
+/// none.
+meshes::PressResponse with_estimated_error(const meshes::PressResponse& response,
+                                           const lattice::PressSetup& setup);
 
 }  // namespace fingertip::studies::inline presses

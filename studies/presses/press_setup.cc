@@ -147,7 +147,7 @@ std::vector<meshes::Violation> broken_by_spacing(const LoadedConfig& loaded) {
 }
 
 bool is_chosen(const LoadedConfig& loaded) {
-  return !loaded.entries.at("lattice.spacing").given;
+  return loaded.config.automatic_spacing || !loaded.entries.at("lattice.spacing").given;
 }
 
 /// A rod of the usual density may be too light for this finger under the controller: nobody chose

@@ -151,6 +151,8 @@ TEST_F(LivePage, ShowsWhatTheServerSays) {
   EXPECT_GT(row.normal_force, 0.0);
   EXPECT_NEAR(shown("indentation"), 1e3 * row.indentation, 0.51e-3);
   EXPECT_NEAR(shown("normal-force"), 1e3 * row.normal_force, 0.51e-1);
+  EXPECT_GT(frame->picture.force_error, 0.0);
+  EXPECT_NE(text("normal-force").find("\u00b1"), std::string::npos) << text("normal-force");
   EXPECT_NEAR(shown("torque"), 1e6 * frame->picture.measured.wrench.torque.norm(), 0.51e-1);
   EXPECT_NEAR(shown("time"), row.time, 0.51e-3);
   EXPECT_NEAR(shown("touching"), frame->picture.measured.contact->touching, 0.0);

@@ -179,7 +179,7 @@ std::string RealTimeRun::text() const {
     text += fmt::format("real-time factor {:.3g} in the slowest stretch ({:.3g} expected){}\n",
                         record.slowest_factor, record.expected_factor,
                         record.slowest_factor < 1.0 ? ": NOT KEPT UP" : "");
-  text += "force error " + record.force_error_of + "\n";
+  text += "force error of this spacing at rest " + record.force_error_of + "\n";
   if (record.force_error)
     text += report::tables_text(report::real_time_chapter(record), {"errors"});
   return text;

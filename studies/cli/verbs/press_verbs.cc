@@ -199,9 +199,10 @@ class ToldSummary {
   nlohmann::ordered_json content_;
 };
 
-/// The continuum's press for the error of a lattice's; empty where it failed, which `source` then
-/// tells.
-meshes::PressResponse press_continuum(Session& session, ErrorSource& source) {
+/// The continuum's press for the error of a lattice's; empty where it failed, and `source` is then
+/// the estimate.
+meshes::PressResponse press_continuum(Session& session, lattice::ModelKind model,
+                                      ErrorSource& source) {
   PlannedJob planned{"continuum", reference_job(*source.continuum), false};
   // A run of seconds starts again: one that goes on in the middle of a sample differs by round-off.
   if (source.continuum->axisymmetric()) planned.job.resumable = false;
@@ -212,23 +213,25 @@ meshes::PressResponse press_continuum(Session& session, ErrorSource& source) {
     session.run(planned);
     response = meshes::PressResponse::read_csv(session.path_of(planned) / "response.csv");
   });
-  if (!failure.empty()) source.statement = "not known: " + failure;
+  if (!failure.empty()) source = estimated_source(model, "the continuum failed: " + failure);
   return response;
 }
 
 /// Gives a press that is done the error of its forces, as `run.error` says: the column force_error
 /// of its response.csv, force_error in its summary.json, a line for the screen.
-std::string find_force_error(ErrorSource source, const meshes::PressProtocol& protocol,
-                             Session& session, ToldSummary& told, meshes::PressResponse& response) {
+std::string find_force_error(ErrorSource source, const lattice::PressSetup& setup, Session& session,
+                             ToldSummary& told, meshes::PressResponse& response) {
   const std::filesystem::path& folder = session.folder().path();
   const meshes::PressResponse continuum =
-      source.continuum ? press_continuum(session, source) : meshes::PressResponse();
+      source.continuum ? press_continuum(session, setup.lattice.model, source)
+                       : meshes::PressResponse();
   // A run that is resumed may have had another error.
   const bool had_error = std::ranges::any_of(
       response.samples(),
       [](const meshes::PressSample& sample) { return !std::isnan(sample.force_error); });
-  if (had_error || !continuum.empty()) {
-    response = with_force_error(response, continuum);
+  if (had_error || source.estimated || !continuum.empty()) {
+    response = source.estimated ? with_estimated_error(response, setup)
+                                : with_force_error(response, continuum);
     response.write_csv(folder / "response.csv");
     mark_rewritten(folder, "response.csv");
   }
@@ -238,7 +241,7 @@ std::string find_force_error(ErrorSource source, const meshes::PressProtocol& pr
   }
   ForceErrorEntry entry{source.statement};
   std::string words = "force error " + source.statement;
-  std::vector<meshes::PressSample> known = wanted_samples(response, protocol);
+  std::vector<meshes::PressSample> known = wanted_samples(response, setup.protocol);
   std::erase_if(known, [](const meshes::PressSample& sample) {
     return !std::isfinite(sample.force_error / sample.normal_force);
   });
@@ -285,7 +288,7 @@ int run_press(const CommandLine& line) {
     const PressSummary summary = told.press();
     auto response = meshes::PressResponse::read_csv(folder / "response.csv");
     session.expect_later(0.0);
-    const std::string error = find_force_error(source, setup.protocol, session, told, response);
+    const std::string error = find_force_error(source, setup, session, told, response);
     if (!line.quiet) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));

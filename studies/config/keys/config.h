@@ -185,14 +185,15 @@ constexpr auto names_of(ContinuumLaw) {
 
 /// How a lattice's press finds the error of its forces.
 enum class ForceErrorBy {
-  automatic,  ///< from the continuum where that takes seconds
+  automatic,  ///< from the continuum where that takes seconds, else estimated
   continuum,  ///< from the continuum, whatever it takes
+  estimate,   ///< by lattice::ForceEstimator
   nothing,    ///< not at all
 };
 constexpr auto names_of(ForceErrorBy) {
   using enum ForceErrorBy;
   return meshes::names<ForceErrorBy>(
-      {{automatic, "auto"}, {continuum, "continuum"}, {nothing, "off"}});
+      {{automatic, "auto"}, {continuum, "continuum"}, {estimate, "estimate"}, {nothing, "off"}});
 }
 
 /// Section [exchange]: what is handed to another program.
@@ -223,6 +224,9 @@ struct Config {
   std::vector<double> rotation;                   ///< of the grid about x, y, z in turn [rad]
   int lattice_modes = 10;                         ///< how many natural frequencies
   std::optional<double> spacing_divisor;          ///< a = R/divisor when given so
+  bool automatic_spacing = false;                 ///< such that spacing_tolerance is kept
+  double spacing_tolerance = 0.02;                ///< of the force, by lattice::ForceEstimator
+  double max_particles = 1e5;                     ///< of an automatic spacing
   std::optional<double> poissons_ratio;           ///< when given so; press.rubber has E and G
   std::optional<double> shore_hardness;           ///< Shore A, when given instead of E
   std::filesystem::path card;                     ///< of the rubber's law; absolute, or empty

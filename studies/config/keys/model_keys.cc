@@ -15,9 +15,10 @@ void assign_constants(Config& config, const Value& value) {
 
 void assign_spacing(Config& config, const Value& value) {
   config.spacing_divisor.reset();
+  config.automatic_spacing = value.word == "auto";
   if (value.word.empty()) {
     config.press.lattice.spacing = value.number;
-  } else {
+  } else if (!config.automatic_spacing) {
     config.spacing_divisor = value.number;
   }
 }
@@ -133,7 +134,8 @@ std::vector<Key> lattice_keys() {
   Key spacing = with_rule(
       quantity(
           "lattice", "spacing", "m", "m", positive,
-          "a, distance of neighbouring masses along the axes",
+          "a, distance of neighbouring masses along the axes; auto: the coarsest tip_radius/N, N "
+          "whole, that keeps lattice.tolerance",
           at(&Config::press, &lattice::PressSetup::lattice, &lattice::LatticeSettings::spacing)),
       "at most (tip_radius - rod_radius)/2, of another shape a quarter of its thinnest wall, "
       "and no more than 20 million masses; where the default is coarser than that, the coarsest "
@@ -142,6 +144,7 @@ std::vector<Key> lattice_keys() {
   const double divisor = meshes::Geometry().tip_radius / lattice::LatticeSettings().spacing;
   spacing.preset = "\"tip_radius/" + calibration::rounded(divisor, 12) + '"';
   spacing.word = "tip_radius/N";
+  spacing.may_be_automatic = true;
   spacing.assign = assign_spacing;
   Key constants = with_rule(
       choice("lattice", "constants",
@@ -171,6 +174,16 @@ std::vector<Key> lattice_keys() {
              "which mass-spring model",
              at(&Config::press, &lattice::PressSetup::lattice, &lattice::LatticeSettings::model)),
       spacing,
+      only_with("lattice.spacing", {"auto"},
+                plain("lattice", "tolerance", {4e-3, 0.5, true},
+                      "what the spacing may put on a force, relative to it, from the first of "
+                      "press.samples on, or from a tenth of the depth",
+                      at(&Config::spacing_tolerance))),
+      only_with("lattice.spacing", {"auto"},
+                plain("lattice", "max_particles", {100, 2e7, true},
+                      "no more masses than these unless the finger's walls ask for more; what that "
+                      "costs in accuracy is told",
+                      at(&Config::max_particles))),
       plain("lattice", "offset", {-1.0, 1.0, true},
             "shift of the grid along x, y, z in units of the spacing",
             at(&Config::press, &lattice::PressSetup::lattice, &lattice::LatticeSettings::offset)),
@@ -217,8 +230,10 @@ std::vector<Key> run_keys() {
       choice("run", "error",
              {{"auto",
                "from the continuum where that takes seconds: a body of revolution, pressed "
-               "straight"},
+               "straight; else estimated"},
               {"continuum", "from the continuum in the same press, of a solid, too"},
+              {"estimate",
+               "from spacing over contact radius, the model and the motion; none of published"},
               {"off", "not at all"}},
              "how press finds the error of the lattice's forces (column force_error); no force "
              "depends on it",

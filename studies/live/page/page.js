@@ -125,7 +125,8 @@ class Page {
     put('time', `${frame.time.toFixed(3)} s`);
     put('achieved', frame.status === 'running' && frame.real_time_factor > 0 ? Controls.pace(frame.real_time_factor) : '–');
     put('indentation', Units.text(frame.indentation, 'length'));
-    put('normal-force', Units.text(frame.normal_force, 'force'));
+    const error = frame.force_error > 0 ? ` ± ${Units.number(frame.force_error, 'force')}` : '';
+    put('normal-force', `${Units.number(frame.normal_force, 'force')}${error} ${Units.unit('force')}`);
     put('force', Units.text(norm(frame.wrench.force), 'force'));
     put('torque', Units.text(norm(frame.wrench.torque), 'torque'));
     put('speed-reading', Units.text(frame.speed, 'speed'));

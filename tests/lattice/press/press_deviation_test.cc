@@ -118,3 +118,90 @@ TEST(PressDeviation, HeavilyDampedRubberHasAnEstimateToo) {
     EXPECT_GE(deviation.relative, 0.0);
   }
 }
+
+namespace {
+
+meshes::PressSample touching(double depth, double radius) {
+  meshes::PressSample sample;
+  sample.indentation = depth;
+  sample.normal_force = 0.1;
+  sample.contact_radius = radius;
+  return sample;
+}
+
+lattice::ForceEstimate estimate_of(const PressSetup& setup, double depth = 1e-3,
+                                   double radius = 3e-3) {
+  return lattice::ForceEstimator(setup).of(touching(depth, radius)).value();
+}
+
+}  // namespace
+
+TEST(ForceEstimate, FallsWithTheSpacingAtAnOrderBetweenTwoAndThree) {
+  constexpr double ties = 3e-3;  // remains
+  PressSetup setup;
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
+  double last = 0.0;
+  for (double spacing = 1.2e-3; spacing > 1e-4; spacing /= 2.0) {
+    setup.lattice.spacing = spacing;
+    const lattice::ForceEstimate estimate = estimate_of(setup);
+    EXPECT_EQ(estimate.model, 0.0);
+    EXPECT_EQ(estimate.motion, 0.0);
+    if (last > 0.0) {
+      EXPECT_GT(last / (estimate.grid - ties), 4.0);
+      EXPECT_LT(last / (estimate.grid - ties), 8.0);
+    }
+    last = estimate.grid - ties;
+  }
+  // A wider contact is better known, and never is the force off by more than half of it.
+  EXPECT_LT(estimate_of(setup, 1e-3, 4e-3).grid - ties, last);
+  setup.lattice.spacing = 2.5e-3;
+  EXPECT_GE(estimate_of(setup, 1e-6, 1e-3).grid, 0.5);
+  EXPECT_LE(estimate_of(setup, 1e-6, 1e-3).grid, 0.5);
+}
+
+TEST(ForceEstimate, OfCentralSpringsKnowsThatTheirPoissonsRatioIsAQuarter) {
+  PressSetup setup;
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
+  setup.lattice.model = ModelKind::central;
+  const auto of_ratio = [&](double nu) {
+    setup.rubber.shear_modulus = setup.rubber.youngs_modulus / (2.0 * (1.0 + nu));
+    return estimate_of(setup, 1e-5).model;
+  };
+  EXPECT_NEAR(of_ratio(0.25), 0.0, 1e-12);
+  // Shallow, it is a half space: E/(1 - nu²).
+  EXPECT_NEAR(of_ratio(0.45), 1.0 - (1.0 - 0.45 * 0.45) / (1.0 - 0.0625), 0.06);
+  EXPECT_GT(of_ratio(0.49), of_ratio(0.4));
+}
+
+TEST(ForceEstimate, OfMotionVanishesWithTheSpeed) {
+  PressSetup setup;
+  setup.protocol.mode = meshes::DriveMode::quasi_static;
+  setup.rubber.retardation_time = 1e-3;
+  const auto at_speed = [&](double speed) {
+    setup.protocol.speed = speed;
+    return estimate_of(setup).motion;
+  };
+  const double slow = at_speed(1e-4);
+  // Kelvin and Voigt: tau v F'/F, of Hertz 3/2 tau v/delta, of a layer up to 2.
+  EXPECT_GT(slow, 1.5 * 1e-3 * 1e-4 / 1e-3);
+  EXPECT_LT(slow, 2.0 * 1e-3 * 1e-4 / 1e-3 * 1.1);
+  EXPECT_GT(at_speed(0.05), 100.0 * slow);
+  setup.integrator = Integrator::mass_scaled;
+  setup.time_step = 1e-3;
+  const double scaled = at_speed(0.01);
+  setup.integrator = Integrator::symplectic_euler;
+  EXPECT_GT(scaled, at_speed(0.01));
+}
+
+TEST(ForceEstimate, IsNoneOfPublishedSpringsAndOfNoContact) {
+  PressSetup setup;
+  const auto has_one = [&](const meshes::PressSample& sample) {
+    return lattice::ForceEstimator(setup).of(sample).has_value();
+  };
+  EXPECT_TRUE(has_one(touching(1e-3, 3e-3)));
+  EXPECT_FALSE(has_one(touching(1e-3, 0.0)));
+  EXPECT_FALSE(has_one({}));
+  setup.lattice.model = ModelKind::published;
+  EXPECT_FALSE(has_one(touching(1e-3, 3e-3)));
+  EXPECT_FALSE(lattice::ForceEstimator(setup).spacing_for(1e-3, 0.02));
+}

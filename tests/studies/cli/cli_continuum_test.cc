@@ -126,8 +126,8 @@ TEST_F(Continuum, GivesEveryForceOfALatticeItsError) {
   // Nothing that happens to the continuum takes the press away.
   const Words too_small = {"reference.max_unknowns=1000", "reference.tolerance=1e-5"};
   const ProgramResult alone = folder_.run("press --out alone", coarse + too_small);
-  EXPECT_TRUE(says(alone.out, "force error not known: ")) << alone.out;
-  EXPECT_TRUE(std::isnan(folder_.response("alone").samples().back().force_error));
+  EXPECT_TRUE(says(alone.out, "force error estimated, for the continuum failed: ")) << alone.out;
+  EXPECT_GT(folder_.response("alone").samples().back().force_error, 0.0);
 }
 
 TEST_F(Continuum, CheckTellsWhatASolidTakes) {

@@ -119,3 +119,18 @@ TEST(Protocol, NumbersThatAreNoneBecomeNull) {
   const auto json = nlohmann::json::parse(bytes.substr(4, length));
   EXPECT_TRUE(json.at("normal_force").is_null());
 }
+
+TEST(Protocol, TellsTheErrorOfTheForceWhereTheContactIsKnown) {
+  LiveFrame frame = small_frame();
+  const auto json = [&] {
+    const std::string bytes = encode_frame(frame, {});
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data(), 4);
+    return nlohmann::json::parse(bytes.substr(4, length));
+  };
+  EXPECT_FALSE(json().contains("force_error"));
+  frame.picture.measured.contact.emplace();
+  EXPECT_TRUE(json().at("force_error").is_null());
+  frame.picture.force_error = 0.01;
+  EXPECT_EQ(json().at("force_error"), 0.01);
+}

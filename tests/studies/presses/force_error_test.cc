@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "lattice/press/press_deviation.h"
 #include "studies/presses/reference_job.h"
 #include "tests/studies/configured.h"
 
@@ -77,17 +78,39 @@ TEST(ForceError, IsFromTheContinuumWhereThatTakesSeconds) {
   EXPECT_EQ(key(source_of({"press.mode=static"})), key(small));
 }
 
-TEST(ForceError, SaysWhyItIsNotKnown) {
+TEST(ForceError, IsEstimatedElsewhereAndSaysWhy) {
   for (const auto& [set, why] : std::map<std::string, std::string>{
            {"press.tilt=5 deg", "run.error = \"continuum\""},
            {"rubber.relaxation=[[0.25, \"0.3 s\"]]", "relaxes"},
            {R"(press.program=[["2 mm", "3 cm/s"], ["hold", "2 s"]])", "program"}}) {
     const ErrorSource source = source_of({set});
     EXPECT_FALSE(source.continuum) << set;
-    EXPECT_TRUE(says(source.statement, {"not known", why})) << source.statement;
+    EXPECT_TRUE(source.estimated) << set;
+    EXPECT_TRUE(says(source.statement, {"estimated, for ", why})) << source.statement;
+    const ErrorSource published = source_of({set, "lattice.model=published"});
+    EXPECT_FALSE(published.estimated) << set;
+    EXPECT_TRUE(says(published.statement, {"not known: ", "has no estimate"}))
+        << published.statement;
   }
-  EXPECT_TRUE(source_of({"press.tilt=5 deg", "run.error=continuum"}).continuum);
+  const ErrorSource solid = source_of({"press.tilt=5 deg", "run.error=continuum"});
+  EXPECT_TRUE(solid.continuum);
+  EXPECT_FALSE(solid.estimated);
+  const ErrorSource asked = source_of({"run.error=estimate"});
+  EXPECT_FALSE(asked.continuum);
+  EXPECT_TRUE(asked.estimated);
+  EXPECT_EQ(asked.statement, "estimated");
   const ErrorSource off = source_of({"run.error=off"});
-  EXPECT_FALSE(off.continuum);
+  EXPECT_FALSE(off.continuum || off.estimated);
   EXPECT_EQ(off.statement, "");
+}
+
+TEST(ForceError, OfAnEstimateIsAPartOfTheForceWhereThereIsContact) {
+  PressSample touches = sample(1e-3, 2.0);
+  touches.contact_radius = 3e-3;
+  const fingertip::lattice::PressSetup setup = setup_of({"press.mode=static"});
+  const auto samples =
+      with_estimated_error(PressResponse({sample(0.5e-3, 1.0), touches}), setup).samples();
+  EXPECT_TRUE(std::isnan(samples[0].force_error)) << "no radius is known";
+  EXPECT_DOUBLE_EQ(samples[1].force_error,
+                   2.0 * fingertip::lattice::ForceEstimator(setup).of(touches)->sum());
 }
