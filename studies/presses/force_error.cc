@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lattice/press/press_deviation.h"
 #include "studies/presses/press_setup.h"
 
 namespace fingertip::studies::inline presses {
@@ -98,9 +97,8 @@ PressResponse with_force_error(const PressResponse& response, const PressRespons
 }
 
 PressResponse with_estimated_error(const PressResponse& response,
-                                   const lattice::PressSetup& setup) {
+                                   const lattice::ForceEstimator& estimator) {
   std::vector<PressSample> samples = response.samples();
-  const lattice::ForceEstimator estimator(setup);
   for (PressSample& sample : samples) {
     const auto estimate = estimator.of(sample);
     sample.force_error = estimate ? estimate->sum() * sample.normal_force : meshes::unknown;

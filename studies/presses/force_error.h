@@ -5,7 +5,7 @@
 #include <string>
 
 #include "fem_reference/job/job.h"
-#include "lattice/press/press_setup.h"
+#include "lattice/press/press_deviation.h"
 #include "meshes/press/press_response.h"
 #include "studies/config/loaded_config.h"
 
@@ -35,9 +35,8 @@ ErrorSource estimated_source(lattice::ModelKind model, const std::string& why);
 meshes::PressResponse with_force_error(const meshes::PressResponse& response,
                                        const meshes::PressResponse& continuum);
 
-/// `response` of `setup` with the estimate of lattice::ForceEstimator as force_error [N]; unknown where there is
-/// none.
+/// `response` with the estimate as force_error [N]; unknown where there is none.
 meshes::PressResponse with_estimated_error(const meshes::PressResponse& response,
-                                           const lattice::PressSetup& setup);
+                                           const lattice::ForceEstimator& estimator);
 
 }  // namespace fingertip::studies::inline presses

@@ -14,6 +14,7 @@
 #include "source_hash.h"
 #include "studies/files/run_tables.h"
 #include "studies/presses/controller_choice.h"
+#include "studies/presses/force_error.h"
 #include "studies/presses/journal.h"
 #include "studies/presses/pace.h"
 #include "studies/presses/pictures/movie.h"
@@ -96,10 +97,11 @@ void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path
   const auto show = [&](const lattice::BoundaryView& view, const lattice::FingerPicture& picture) {
     movie->add(view, picture);
   };
+  const lattice::ForceEstimator estimator(setup);
   Journal<lattice::PressOutcome> journal(
       folder, context, "pressing",
       [&](const lattice::PressOutcome& outcome, const std::string& status) {
-        outcome.response.write_csv(folder / "response.csv");
+        with_estimated_error(outcome.response, estimator).write_csv(folder / "response.csv");
         meshes::write_rows(outcome.trace, folder / "trace.csv");
         meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
       });
@@ -133,10 +135,11 @@ void write_contact(const lattice::StaticOutcome& outcome, const fs::path& folder
 
 void run_static_job(lattice::PressSetup setup, const fs::path& folder, const JobContext& context) {
   setup.threads = context.threads;
+  const lattice::ForceEstimator estimator(setup);
   Journal<lattice::StaticOutcome> journal(
       folder, context, "pressing",
       [&](const lattice::StaticOutcome& outcome, const std::string& status) {
-        outcome.response.write_csv(folder / "response.csv");
+        with_estimated_error(outcome.response, estimator).write_csv(folder / "response.csv");
         meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
       },
       std::chrono::milliseconds::zero());

@@ -34,12 +34,12 @@ struct Row {
   meshes::CsvTable curve;                 ///< response.csv
 };
 
-/// Of the last row of response.csv, at the end of the press; from the fourth on those of a lateral
+/// Of the last row of response.csv, at the end of the press; from the fifth on those of a lateral
 /// motion. At last the lowest frequency.
-constexpr const char* answer_names[] = {"indentation [m]",     "normal_force [N]",
-                                        "contact_radius [m]",  "lateral_displacement [m]",
-                                        "lateral_force_x [N]", "lowest_frequency [Hz]"};
-constexpr std::size_t straight = 3, lateral = 5;
+constexpr const char* answer_names[] = {
+    "indentation [m]",          "normal_force [N]",    "force_error [N]",      "contact_radius [m]",
+    "lateral_displacement [m]", "lateral_force_x [N]", "lowest_frequency [Hz]"};
+constexpr std::size_t straight = 4, lateral = 6;
 
 /// The columns in which some row has its answer, in the order in which they are shown.
 std::vector<std::string> answer_columns(const std::vector<Row>& rows) {

@@ -225,12 +225,12 @@ std::string find_force_error(ErrorSource source, const lattice::PressSetup& setu
   const meshes::PressResponse continuum =
       source.continuum ? press_continuum(session, setup.lattice.model, source)
                        : meshes::PressResponse();
-  // A run that is resumed may have had another error.
+  // What the job estimates, or what an earlier run of the folder found.
   const bool had_error = std::ranges::any_of(
       response.samples(),
       [](const meshes::PressSample& sample) { return !std::isnan(sample.force_error); });
   if (had_error || source.estimated || !continuum.empty()) {
-    response = source.estimated ? with_estimated_error(response, setup)
+    response = source.estimated ? with_estimated_error(response, lattice::ForceEstimator(setup))
                                 : with_force_error(response, continuum);
     response.write_csv(folder / "response.csv");
     mark_rewritten(folder, "response.csv");

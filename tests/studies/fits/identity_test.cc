@@ -200,8 +200,8 @@ void PrintTo(const World& world, std::ostream* out) {
 const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawAtLargeStrain.
     "rubber.law", "rubber.volumetric", "rubber.gent_jm", "run.threads", "run.units", "run.error",
     // Of spacing = "auto"; see finger_defaults_test.
-    "lattice.tolerance", "lattice.max_particles", "exchange.", "controller.address",
-    "controller.timeout", "controller.connect_timeout", "controller.library", "controller.schedule",
+    "lattice.max_particles", "exchange.", "controller.address", "controller.timeout",
+    "controller.connect_timeout", "controller.library", "controller.schedule",
     // Of other shapes, see below.
     "geometry.shape", "geometry.profile", "geometry.file", "geometry.unit", "geometry.up",
     "geometry.origin", "geometry.bond", "geometry.endpoint",

@@ -108,9 +108,9 @@ TEST(ForceError, OfAnEstimateIsAPartOfTheForceWhereThereIsContact) {
   PressSample touches = sample(1e-3, 2.0);
   touches.contact_radius = 3e-3;
   const fingertip::lattice::PressSetup setup = setup_of({"press.mode=static"});
+  const fingertip::lattice::ForceEstimator estimator(setup);
   const auto samples =
-      with_estimated_error(PressResponse({sample(0.5e-3, 1.0), touches}), setup).samples();
+      with_estimated_error(PressResponse({sample(0.5e-3, 1.0), touches}), estimator).samples();
   EXPECT_TRUE(std::isnan(samples[0].force_error)) << "no radius is known";
-  EXPECT_DOUBLE_EQ(samples[1].force_error,
-                   2.0 * fingertip::lattice::ForceEstimator(setup).of(touches)->sum());
+  EXPECT_DOUBLE_EQ(samples[1].force_error, 2.0 * estimator.of(touches)->sum());
 }
