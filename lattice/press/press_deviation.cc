@@ -131,17 +131,14 @@ SwayForce sway_force(const Sway& sway, const PressSetup& setup, double step, dou
   return sum;
 }
 
-/// What scaled masses change at a depth, relative to the force.
-double scaled_deviation(const PressSetup& setup, const RoughForce& force, const Sway& sway,
-                        double step, double depth) {
+/// What masses scaled to `step` change where particles touch; nothing at a step of 0 [N].
+double impact_force(const PressSetup& setup, const RoughForce& force, double step, double depth) {
   const double v = setup.protocol.speed,
                filter = contact_factor *
                         (0.25 * step * step + 0.5 * step * setup.rubber.retardation_time),
-               patch = std::sqrt(force.pole_radius * depth),
-               contact = filter * v * v * force.curvature(depth) +
-                         v * std::sqrt(filter) * force.slope(depth) * setup.lattice.spacing / patch,
-               time = meshes::PressMotion(setup.protocol).time_at(depth);
-  return (contact + sway_force(sway, setup, step, time).scaled) / force.value(depth);
+               patch = std::sqrt(force.pole_radius * depth);
+  return filter * v * v * force.curvature(depth) +
+         v * std::sqrt(filter) * force.slope(depth) * setup.lattice.spacing / patch;
 }
 
 /// Of a program: one press to its depth at its largest speed, for deviations grow with it.
@@ -220,7 +217,10 @@ std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup_with_prog
       protocol.samples.empty() ? meshes::default_samples(protocol.depth) : protocol.samples;
   for (const double depth : depths) {
     if (std::sqrt(force.pole_radius * depth) < resolved_patch * setup.lattice.spacing) continue;
-    found.push_back({depth, scaled_deviation(setup, force, sway, step, depth)});
+    const double changed =
+        impact_force(setup, force, step, depth) +
+        sway_force(sway, setup, step, meshes::PressMotion(protocol).time_at(depth)).scaled;
+    found.push_back({depth, changed / force.value(depth)});
   }
   return found;
 }
@@ -300,10 +300,10 @@ struct ForceEstimator::Terms {
     if (!sway) return 0.0;
     const double damping =
                      setup.rubber.retardation_time * setup.protocol.speed * force.slope(depth),
-                 time = meshes::PressMotion(setup.protocol).time_at(depth),
-                 swings = sway_force(*sway, setup, 0.0, time).plain;
-    return (damping + swings) / force.value(depth) +
-           (scaled_step > 0.0 ? scaled_deviation(setup, force, *sway, scaled_step, depth) : 0.0);
+                 impact = impact_force(setup, force, scaled_step, depth),
+                 time = meshes::PressMotion(setup.protocol).time_at(depth);
+    const SwayForce swings = sway_force(*sway, setup, scaled_step, time);
+    return (damping + impact + swings.plain + swings.scaled) / force.value(depth);
   }
 };
 

@@ -35,8 +35,8 @@ nlohmann::json element_schema(const Key& key) {
     case Kind::quantity:
     case Kind::quantities: {
       std::string pattern = R"(^\s*[+-]?[0-9.]+([eE][+-]?[0-9]+)?\s*[^0-9\s].*$)";
-      if (key.word == "auto" || key.may_be_automatic) pattern = "^auto$|" + pattern;
-      if (key.word.find('/') != key.word.npos) pattern = "^tip_radius/[0-9.]+$|" + pattern;
+      if (key.word == "auto") pattern = "^auto$|" + pattern;
+      if (!key.pattern.empty()) pattern = "^tip_radius/[0-9.]+$|" + pattern;
       schema = {{"type", "string"}, {"pattern", pattern}};
       break;
     }

@@ -19,6 +19,11 @@ namespace {
 
 constexpr const char* chosen_place = "default for this finger";
 
+/// N of the coarsest tip_radius/N, N whole, that is at most `spacing`.
+double divisor_of(const meshes::Geometry& geometry, double spacing) {
+  return std::ceil(geometry.tip_radius / spacing);
+}
+
 void take_spacing(LoadedConfig& loaded, double divisor) {
   lattice::PressSetup& press = loaded.config.press;
   loaded.config.spacing_divisor = divisor;
@@ -39,11 +44,10 @@ void choose_spacing(LoadedConfig& loaded) {
   Entry& entry = loaded.entries.at("lattice.spacing");
   if (entry.given) return;
   lattice::LatticeSettings& lattice = config.press.lattice;
-  const double radius = config.press.geometry.tip_radius,
-               coarsest = lattice::coarsest_spacing(config.press.geometry, lattice.model);
+  const double coarsest = lattice::coarsest_spacing(config.press.geometry, lattice.model);
   // Of an invalid dome it may be anything.
   if (!(coarsest > 0.0 && coarsest < lattice.spacing)) return;
-  take_spacing(loaded, std::ceil(radius / coarsest));
+  take_spacing(loaded, divisor_of(config.press.geometry, coarsest));
   entry = {fmt::format("\"tip_radius/{:.0f}\"", *config.spacing_divisor), chosen_place, false};
 }
 
@@ -71,15 +75,12 @@ void choose_automatic_spacing(LoadedConfig& loaded) {
   if (!config.automatic_spacing) return;
   const lattice::PressSetup& press = config.press;
   const meshes::Geometry& geometry = press.geometry;
-  const auto divisor_of = [&](double spacing) {
-    constexpr double round_off = 1e-9;
-    return std::ceil(geometry.tip_radius / spacing * (1.0 - round_off));
-  };
   const double usual = meshes::Geometry().tip_radius / lattice::LatticeSettings().spacing,
-               coarsest = divisor_of(lattice::coarsest_spacing(geometry, press.lattice.model));
+               coarsest =
+                   divisor_of(geometry, lattice::coarsest_spacing(geometry, press.lattice.model));
   const auto wanted =
       lattice::ForceEstimator(press).spacing_for(first_depth(loaded), config.spacing_tolerance);
-  double divisor = wanted ? divisor_of(*wanted) : std::round(usual);
+  double divisor = wanted ? divisor_of(geometry, *wanted) : std::round(usual);
   // Masses go with the cube.
   const double masses = meshes::expected_particle_count(geometry, geometry.tip_radius / divisor);
   if (masses > config.max_particles)

@@ -52,18 +52,14 @@ double number_in(const toml::node& node) {
   return *number;
 }
 
-bool is_pattern(const std::string& word) {
-  return word.find('/') != word.npos;
-}
-
 /// "tip_radius/12" against the pattern "tip_radius/N": the number N.
 double read_fraction(const Key& key, const std::string& text) {
-  const std::string prefix = key.word.substr(0, key.word.find('N'));
+  const std::string prefix = key.pattern.substr(0, key.pattern.find('N'));
   double divisor = 0.0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data() + prefix.size(), end, divisor);
   if (error != std::errc() || rest != end || !std::isfinite(divisor) || !(divisor > 0.0)) {
-    refuse("must be a length, \"auto\" or " + key.word + " with a number N > 0",
+    refuse("must be a length, \"auto\" or " + key.pattern + " with a number N > 0",
            preset_advice(key));
   }
   return divisor;
@@ -78,12 +74,9 @@ Value read_quantity(const Key& key, const toml::node& node) {
     refuse("the unit is missing", "write it as \"" + key.example() + "\"");
   }
   Value value;
-  if (key.may_be_automatic && text->get() == "auto") {
-    value.word = "auto";
-    return value;
-  }
-  if (is_pattern(key.word) && text->get().starts_with(key.word.substr(0, key.word.find('N')))) {
-    value.word = key.word;
+  const std::string prefix = key.pattern.substr(0, key.pattern.find('N'));
+  if (!prefix.empty() && text->get().starts_with(prefix)) {
+    value.word = key.pattern;
     value.number = read_fraction(key, text->get());
     return value;
   }
@@ -293,8 +286,7 @@ Value read_word(const Key& key, const toml::node& node) {
 }
 
 Value read_value(const Key& key, const toml::node& node) {
-  const bool takes_word = !key.word.empty() && !is_pattern(key.word);
-  if (takes_word && node.value<std::string>() == key.word) {
+  if (!key.word.empty() && node.value<std::string>() == key.word) {
     Value value;
     value.word = key.word;
     return value;

@@ -225,16 +225,11 @@ std::string find_force_error(ErrorSource source, const lattice::PressSetup& setu
   const meshes::PressResponse continuum =
       source.continuum ? press_continuum(session, setup.lattice.model, source)
                        : meshes::PressResponse();
-  // What the job estimates, or what an earlier run of the folder found.
-  const bool had_error = std::ranges::any_of(
-      response.samples(),
-      [](const meshes::PressSample& sample) { return !std::isnan(sample.force_error); });
-  if (had_error || source.estimated || !continuum.empty()) {
-    response = source.estimated ? with_estimated_error(response, lattice::ForceEstimator(setup))
-                                : with_force_error(response, continuum);
-    response.write_csv(folder / "response.csv");
-    mark_rewritten(folder, "response.csv");
-  }
+  // Also where neither is wanted: the job has its estimate, and a resumed folder what was found.
+  response = source.estimated ? with_estimated_error(response, lattice::ForceEstimator(setup))
+                              : with_force_error(response, continuum);
+  response.write_csv(folder / "response.csv");
+  mark_rewritten(folder, "response.csv");
   if (source.statement.empty()) {
     told.put("force_error", {});
     return {};

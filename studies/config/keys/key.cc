@@ -53,7 +53,8 @@ std::string Key::allowed() const {
   if (above) text += (below ? " and <= " : "<= ") + meshes::to_text(range.maximum) + suffix;
   for (const Choice& choice : choices) text += (text.empty() ? "" : " | ") + choice.word;
   if (kind == Kind::source) text += " | path of a file";
-  if (!word.empty()) text += (text.empty() ? "or " : ", or ") + word;
+  for (const std::string& other : {pattern, word})
+    if (!other.empty()) text += (text.empty() ? "or " : ", or ") + other;
   return text;
 }
 

@@ -90,12 +90,12 @@ struct Key {
   Range range;         ///< in SI
   std::vector<Choice> choices;
   std::vector<Field> fields;
-  std::size_t length = 0;         ///< of a list of quantities; 0: any
-  bool number_first = false;      ///< of terms
-  std::string word;               ///< word accepted instead of a quantity: "auto", "tip_radius/N"
-  bool may_be_automatic = false;  ///< "auto" besides that word
-  std::string help;               ///< one line
-  std::string rule;               ///< further rule in words, may be empty
+  std::size_t length = 0;            ///< of a list of quantities; 0: any
+  bool number_first = false;         ///< of terms
+  std::string word;                  ///< accepted instead of a value: "auto", "touch"
+  std::string pattern;               ///< of texts accepted as well: "tip_radius/N", N a number > 0
+  std::string help;                  ///< one line
+  std::string rule;                  ///< further rule in words, may be empty
   std::vector<std::string> related;  ///< keys its rule also depends on
   /// The key matters only where that one is one of these words; empty: always.
   std::string matters_with;

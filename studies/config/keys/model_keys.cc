@@ -143,8 +143,8 @@ std::vector<Key> lattice_keys() {
       {"geometry.tip_radius", "geometry.rod_radius"});
   const double divisor = meshes::Geometry().tip_radius / lattice::LatticeSettings().spacing;
   spacing.preset = "\"tip_radius/" + calibration::rounded(divisor, 12) + '"';
-  spacing.word = "tip_radius/N";
-  spacing.may_be_automatic = true;
+  spacing.pattern = "tip_radius/N";
+  spacing.word = "auto";
   spacing.assign = assign_spacing;
   Key constants = with_rule(
       choice("lattice", "constants",
