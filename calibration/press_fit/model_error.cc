@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lattice/model/constants.h"
+#include "lattice/press/press_deviation.h"
 #include "lattice/press/setup_fields.h"
 #include "lattice/press/static_press.h"
 #include "meshes/press/press_protocol.h"
@@ -24,29 +25,14 @@ using lattice::PressSetup;
 
 namespace {
 
-/// Sizes of the errors; their source is the header's.
-constexpr double contact_error = 0.17, contact_power = 3.0, contact_length = 0.5;
-constexpr double inside_error = 0.57, inside_power = 3.0;
-constexpr double tie_error = 0.003;
-constexpr double large_strain_error = 0.02;
+/// Cells over which the error where masses touch swings.
+constexpr double contact_length = 0.5;
 
-/// One force and where it is taken.
+/// The errors of one force, each of known size and unknown sign: half of what covers 95 % of them.
 struct Place {
   const PressSetup* press = nullptr;
-  double depth = 0.0;
-  double pole_radius = 0.0, wall = 0.0;  ///< of the finger [m]
-
-  double cells() const { return std::sqrt(pole_radius * depth) / press->lattice.spacing; }
-  double contact() const {
-    return contact_error * std::min(1.0, std::pow(cells(), -contact_power));
-  }
-  double inside() const {
-    return inside_error * std::pow(press->lattice.spacing / wall, inside_power);
-  }
-  double large_strain() const {
-    if (press->lattice.kinematics == Kinematics::small) return 0.0;
-    return large_strain_error * std::pow(depth / press->geometry.thickness(), 2.0);
-  }
+  double cells = 0.0;  ///< under the contact's radius
+  double contact = 0.0, inside = 0.0;
 };
 
 /// Of a solid, else empty.
@@ -66,12 +52,9 @@ bool same_cells(const PressSetup& a, const PressSetup& b) {
 }
 
 double covariance(const Place& a, const Place& b) {
-  double sum = tie_error * tie_error + a.large_strain() * b.large_strain();
-  if (a.press->lattice.spacing == b.press->lattice.spacing) sum += a.inside() * b.inside();
-  if (same_cells(*a.press, *b.press)) {
-    const double apart = std::abs(a.cells() - b.cells()) / contact_length;
-    sum += a.contact() * b.contact() * std::exp(-apart);
-  }
+  double sum = a.inside * b.inside;
+  if (same_cells(*a.press, *b.press))
+    sum += a.contact * b.contact * std::exp(-std::abs(a.cells - b.cells) / contact_length);
   return sum;
 }
 
@@ -128,11 +111,16 @@ Eigen::VectorXd excess(const PressSetup& press, const std::vector<double>& own,
 Eigen::MatrixXd lattice_covariance(const std::vector<PressSetup>& presses) {
   std::vector<Place> places;
   for (const PressSetup& press : presses) {
-    const auto shape = meshes::shape_of(press.geometry);
-    const double pole_radius = meshes::relative_radius(*shape, press.protocol.obstacle),
-                 wall = shape->wall();
-    for (const double depth : press.protocol.samples)
-      places.push_back({&press, depth, pole_radius, wall});
+    PressSetup cells = press;  // what springs alone cannot be is fitted
+    if (cells.lattice.model == ModelKind::central) cells.lattice.model = ModelKind::hookean;
+    const lattice::ForceEstimator estimator(cells);
+    const double pole_radius =
+        meshes::relative_radius(*meshes::shape_of(press.geometry), press.protocol.obstacle);
+    for (const double depth : press.protocol.samples) {
+      const lattice::ForceEstimate error = estimator.at(depth).value_or(lattice::ForceEstimate());
+      places.push_back({&press, std::sqrt(pole_radius * depth) / press.lattice.spacing,
+                        0.5 * error.contact, 0.5 * error.inside});
+    }
   }
   const Index count = Index(places.size());
   Eigen::MatrixXd result(count, count);

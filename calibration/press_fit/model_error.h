@@ -10,20 +10,16 @@ namespace fingertip::calibration::inline press_fit {
 
 /// Covariance of the relative errors of the static lattice's forces against the continuum of its
 /// own kinematics, for all `presses` in order: a row and a column per sample of
-/// PressProtocol::samples. `hookean` and `network`; in terms of xi = sqrt(R d)/a, the cells under
-/// the contact's radius to within a tenth, and of the thickness t = R - r, the errors are the sum
-/// of independent ones,
-///   contact  0.17 min(1, xi^-3), correlated over xi by exp(-|xi - xi'|/0.5): the patch grows by
-///            rings of cells, so that the error swings once per cell and has kinks where ties begin
-///            to touch; common to presses of one spacing, geometry and direction, on the same
-///            cells,
-///   inside   0.57 (a/t)³, one number for all presses of a spacing: bending of cells, less the
-///   ties, ties     0.003, one number for all: what is left at R/16 and R/24, law A    0.02 (d/t)²,
-///   one number for all; the network alone.
-/// Measured, each as the root mean square, with presses of the default finger at R/5 to R/12 on
-/// three grids against an axisymmetric continuum; the last two from lattices down to R/24
-/// (README; lattice/MEASUREMENTS.md). They are errors of known size and unknown value: their signs,
-/// mostly positive, are not used.
+/// PressProtocol::samples. The sizes are those of lattice::ForceEstimator, which cover 95 %,
+/// halved:
+///   contact  of masses where they touch, correlated over xi = sqrt(R d)/a, the cells under the
+///            contact's radius, by exp(-|xi - xi'|/0.5): the patch grows by rings of cells, so that
+///            the error swings once per cell and has kinks where ties begin to touch; common to
+///            presses of one spacing, geometry and direction, on the same cells,
+///   inside   across the wall, and of the ties: one number for all.
+/// Of `central` they are those of cells, for what its springs cannot be is fitted. Nothing of
+/// `published`. They are errors of known size and unknown value: their signs, mostly positive, are
+/// not used.
 Eigen::MatrixXd lattice_covariance(const std::vector<lattice::PressSetup>& presses);
 
 /// By how much forces of law A exceed those of small strain under `press`, relative, at every

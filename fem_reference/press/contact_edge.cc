@@ -1,60 +1,116 @@
 #include "fem_reference/press/contact_edge.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 namespace fingertip::fem_reference::inline press {
 namespace {
 
-/// The edge is sought from the points beyond this share of the radius: the second one where the
-/// first leaves too few of them to say more than the outermost does. At large strain p² has a peak
-/// in the middle that a fit over more of the contact feels: over the outer half it is 2.5 % off at
-/// 0.3 cm of law A without friction, 14 % with stick.
-struct EdgeShare {
-  double inner;
-  int fewest_rings;
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+/// The edge is sought from the nodes within so many spacings of the outermost: from as few as tell
+/// it. At large strain p² has a peak in the middle that a fit over more of the contact feels: over
+/// the outer half it is 2.5 % off at 0.3 cm of law A without friction, 14 % with stick.
+constexpr std::array<double, 4> reaches = {5.0, 7.0, 10.0, 15.0};
+constexpr int fewest_rings = 4;
+constexpr int nodes_per_ring = 16;  ///< all around a solid's contact, at least
+
+/// s = (x - centre)ᵀ metric (x - centre).
+struct Ellipse {
+  Vector2d centre = Vector2d::Zero();
+  Matrix2d metric = Matrix2d::Identity();
+  double at(const Vector2d& place) const { return (place - centre).dot(metric * (place - centre)); }
+  /// sqrt(A B) where s has this value.
+  double radius(double s) const { return std::sqrt(s) / std::pow(metric.determinant(), 0.25); }
 };
-constexpr std::array<EdgeShare, 2> edge_shares = {{{0.7, 5}, {0.5, 3}}};
 
-}  // namespace
+/// Nothing of a line.
+std::optional<Ellipse> ellipse_of(const PushedNodes& contact) {
+  if (contact.meridian) return Ellipse{};
+  double force = 0.0;
+  Vector2d first = Vector2d::Zero();
+  Matrix2d second = Matrix2d::Zero();
+  for (const PushedNode& node : contact.nodes) {
+    force += node.force;
+    first += node.force * node.place;
+    second += node.force * node.place * node.place.transpose();
+  }
+  if (!(force > 0.0)) return {};
+  Ellipse ellipse;
+  ellipse.centre = first / force;
+  // What is odd in a mirrored direction cancels.
+  if (contact.sectors > 1) ellipse.centre.y() = second(0, 1) = second(1, 0) = 0.0;
+  if (contact.sectors > 2) ellipse.centre.x() = 0.0;
+  const Matrix2d spread = second / force - ellipse.centre * ellipse.centre.transpose();
+  const double area = spread.determinant();
+  if (!(area > 1e-6 * spread.squaredNorm())) return {};
+  ellipse.metric = std::sqrt(area) * spread.inverse();
+  return ellipse;
+}
 
-double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing,
-                    int nodes_per_ring) {
-  if (contact.empty()) return 0.0;
-  const double outermost = contact.back().radius;
-  for (const auto& [inner, fewest_rings] : edge_shares) {
+/// s at the zero of p²; nothing where the nodes tell none.
+std::optional<double> edge_of(const PushedNodes& contact, const Ellipse& ellipse) {
+  double outermost = 0.0;
+  for (const PushedNode& node : contact.nodes)
+    outermost = std::max(outermost, ellipse.at(node.place));
+  const double step = contact.spacing / ellipse.radius(outermost);
+  for (const double reach : reaches) {
+    if (!contact.meridian && reach == reaches.front()) continue;  // its outermost nodes scatter
+    const double inner = std::max(0.0, 1.0 - reach * step);
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     int count = 0;
-    for (const ContactPoint& point : contact) {
-      if (point.radius < inner * outermost) continue;
-      const double s = std::pow(point.radius / outermost, 2);
+    for (const PushedNode& node : contact.nodes) {
+      const double s = ellipse.at(node.place) / outermost;
+      if (!(s >= inner * inner)) continue;
       const Eigen::Vector3d basis(1.0, s, s * s);
       normal += basis * basis.transpose();
-      right += point.pressure * point.pressure * basis;
+      right += node.pressure * node.pressure * basis;
       ++count;
     }
-    if (count < fewest_rings * nodes_per_ring) continue;
+    const int per_ring = contact.meridian ? 1 : nodes_per_ring / contact.sectors;
+    if (count < fewest_rings * per_ring) continue;
     const Eigen::Vector3d c = normal.ldlt().solve(right);
     const double discriminant = c[1] * c[1] - 4 * c[2] * c[0];
-    if (!(discriminant >= 0.0)) return outermost;
+    if (!(discriminant >= 0.0)) return {};
     // The root that a straight line has, too.
     const double root = 2 * c[0] / (-c[1] + std::sqrt(discriminant));
-    if (!(root > 0.0)) return outermost;
-    return std::clamp(outermost * std::sqrt(root), outermost - node_spacing,
-                      outermost + node_spacing);
+    // A spacing beyond the outermost node at most: else pressure does not vanish there.
+    if (!(root > 0.0) || std::abs(std::sqrt(root) - 1.0) > step) return {};
+    return root * outermost;
   }
-  return outermost;
+  return {};
 }
 
-void measure_contact(PressState& state, int nodes_per_ring) {
+}  // namespace
+
+double contact_radius(const PushedNodes& contact) {
+  double area = 0.0;
+  for (const PushedNode& node : contact.nodes) area += contact.sectors * node.area;
+  const double own = std::sqrt(area / std::numbers::pi);
+  const auto ellipse = ellipse_of(contact);
+  const auto edge = ellipse ? edge_of(contact, *ellipse) : std::nullopt;
+  if (!edge) return own;
+  return std::clamp(ellipse->radius(*edge), std::max(0.0, own - contact.spacing),
+                    own + contact.spacing);
+}
+
+void measure_contact(PressState& state, const PushedNodes& contact) {
+  state.node_spacing = contact.spacing;
+  double peak = 0.0;
+  for (const PushedNode& node : contact.nodes) {
+    if (!(node.area > 0.0)) continue;
+    state.contact.push_back({node.place.norm(), node.pressure});
+    peak = std::max(peak, node.pressure);
+  }
   std::ranges::sort(state.contact, {}, &ContactPoint::radius);
-  state.contact_radius = contact_edge(state.contact, state.node_spacing, nodes_per_ring);
-  state.max_pressure = state.contact.empty()
-                           ? 0.0
-                           : std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
+  state.set_contact(contact_radius(contact), peak);
 }
 
 }  // namespace fingertip::fem_reference::inline press

@@ -107,6 +107,7 @@ std::vector<PressState> MeshHistory::best() const {
     }
   for (std::size_t i = 0; i < result.size(); ++i) {
     const ForceError found = error(i);
+    result[i].set_errors(found.value / std::abs(result[i].normal_force));
     result[i].force_error = found.value;
     result[i].convergence = name(found.convergence);
     result[i].order = found.order;

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "fem_reference/elements/kinematics.h"
@@ -99,33 +98,33 @@ void TipPress<dim>::add_resultant(PressState& state) const {
   const std::vector<SurfaceNode>& nodes = contact_->unknowns().nodes;
   const bool finite = job_.strain == Strain::finite;
   // Large strain: true pressure on the deformed surface, moments at deformed positions.
-  std::vector<std::array<double, 4>> now(nodes.size());  // displacement, area
-  if (finite) {
-    const Vector area = outer_area(*body_, &displacement_);
-    for (std::size_t c = 0; c < 4; ++c) {
-      std::vector<long> unknowns;
-      for (const SurfaceNode& node : nodes)
-        unknowns.push_back(node.unknown[std::min<std::size_t>(c, 2)]);
-      const auto values = body_->fine.gather(c < 3 ? displacement_ : area, unknowns);
-      for (std::size_t i = 0; i < nodes.size(); ++i) now[i][c] = values[i];
-    }
+  const Vector rest = body_->fine.vector();
+  const Vector areas = outer_area(*body_, finite ? &displacement_ : &rest);
+  std::vector<std::array<double, 4>> now(nodes.size());  // displacement, area seen along the press
+  for (std::size_t c = finite ? 0 : 3; c < 4; ++c) {
+    std::vector<long> unknowns;
+    for (const SurfaceNode& node : nodes)
+      unknowns.push_back(node.unknown[std::min<std::size_t>(c, 2)]);
+    const auto values = body_->fine.gather(c < 3 ? displacement_ : areas, unknowns);
+    for (std::size_t i = 0; i < nodes.size(); ++i) now[i][c] = values[i];
   }
   if (Kinematics<dim>::revolved)
     for (auto& node : now) node[1] = 0.0;  // it has no unknown
   const Eigen::AngleAxisd to_rod(job_.protocol.tilt, meshes::Vector3::UnitY());
   const meshes::Vector3 endpoint = to_rod.inverse() * job_.geometry.rod_endpoint();
   meshes::Vector3 force = meshes::Vector3::Zero(), torque = force;
-  double touched = 0.0;
+  PushedNodes pushed{.sectors = int(sectors), .meridian = Kinematics<dim>::revolved};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (contact_->status()[i] == NodeStatus::open) continue;
     meshes::Vector3 position = nodes[i].position;
     if (finite) position += meshes::Vector3(now[i][0], now[i][1], now[i][2]);
-    const double area = finite ? now[i][3] : nodes[i].area;
     const meshes::Vector3 push = contact_->reaction(i);
     force += push;
     torque += (position - endpoint).cross(push);
-    touched += area;
-    if (nodes[i].area > 0.0) state.contact.push_back({radius(position), contact_->push(i) / area});
+    if (!(nodes[i].area > 0.0)) continue;  // a pole
+    const double area = finite ? now[i][3] : nodes[i].area;
+    pushed.nodes.push_back(
+        {(position - centre_).template head<2>(), contact_->push(i) / area, -push.z(), now[i][3]});
   }
   state.normal_force = -sectors * force.z();
   torque = to_rod * torque;
@@ -137,11 +136,10 @@ void TipPress<dim>::add_resultant(PressState& state) const {
   state.lateral_force_y = whole ? force.y() : 0.0;
   state.torque_x = whole ? torque.x() : 0.0;
   state.torque_z = whole ? torque.z() : 0.0;
-  if (!state.contact.empty())
-    state.node_spacing = spacing_around(outer_nodes_, outermost(),
-                                        [this](const meshes::Vector3& at) { return radius(at); });
-  measure_contact(state, dim == 2 ? 1 : 4);
-  if (!is_round()) state.contact_radius = std::sqrt(sectors * touched / std::numbers::pi);
+  if (!pushed.nodes.empty())
+    pushed.spacing = spacing_around(outer_nodes_, outermost(),
+                                    [this](const meshes::Vector3& at) { return radius(at); });
+  measure_contact(state, pushed);
 }
 
 template <int dim>

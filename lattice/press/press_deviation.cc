@@ -27,9 +27,10 @@ constexpr double cost = 2.0;             // of a scaled step, in plain ones
 /// A x² + B x³ + D y² + T, at most C, or E z where that is more; never more than half of the force.
 struct GridError {
   double contact = 0.0, edge = 0.0, wall = 0.0, point = 0.0, points = 0.0, ties = 3e-3;
-  double at(double x, double y, double z) const {
-    const double most = std::max(point, std::min(points * z, 0.5));
-    return std::min((contact + edge * x) * x * x + wall * y * y + ties, most);
+  ForceEstimate at(double x, double y, double z) const {
+    const double most = std::max(point, std::min(points * z, 0.5)),
+                 inside = std::min(wall * y * y + ties, most);
+    return {.contact = std::min((contact + edge * x) * x * x, most - inside), .inside = inside};
   }
 };
 constexpr GridError solid_cells{0.06, 0.15, 0.2, 0.24, 0.15};   // hookean, network
@@ -285,8 +286,8 @@ struct ForceEstimator::Terms {
       scaled_step = choice.step;
   }
 
-  /// Of a patch of this radius, or else Hertz'.
-  double grid(double spacing, std::optional<double> patch, double depth) const {
+  /// Of the grid; of a patch of this radius, or else Hertz'.
+  ForceEstimate grid(double spacing, std::optional<double> patch, double depth) const {
     const double hertz = std::sqrt(force.pole_radius * depth);
     const bool central = setup.lattice.model == ModelKind::central;
     return (central ? springs_alone : solid_cells)
@@ -305,30 +306,37 @@ struct ForceEstimator::Terms {
     const SwayForce swings = sway_force(*sway, setup, scaled_step, time);
     return (damping + impact + swings.plain + swings.scaled) / force.value(depth);
   }
+  ForceEstimate estimate(std::optional<double> patch, double depth) const {
+    ForceEstimate found = grid(setup.lattice.spacing, patch, depth);
+    found.model = model(depth);
+    found.motion = motion(depth);
+    return found;
+  }
 };
 
-ForceEstimator::ForceEstimator(const PressSetup& setup) {
-  if (setup.lattice.model != ModelKind::published) terms_ = std::make_shared<const Terms>(setup);
+ForceEstimator::ForceEstimator(const PressSetup& setup)
+    : terms_(std::make_shared<const Terms>(setup)) {}
+
+bool ForceEstimator::knows_model() const {
+  return terms_->setup.lattice.model != ModelKind::published;
 }
 
 std::optional<ForceEstimate> ForceEstimator::of(const meshes::PressSample& sample) const {
   const double depth = sample.indentation, patch = sample.contact_radius;
-  if (!terms_ || !(sample.normal_force > 0.0 && depth > 0.0 && patch > 0.0)) return {};
-  return ForceEstimate{terms_->grid(terms_->setup.lattice.spacing, patch, depth),
-                       terms_->model(depth), terms_->motion(depth)};
+  if (!knows_model() || !(sample.normal_force > 0.0 && depth > 0.0 && patch > 0.0)) return {};
+  return terms_->estimate(patch, depth);
 }
 
-std::optional<double> ForceEstimator::grid(double depth) const {
-  if (!terms_) return {};
-  return terms_->grid(terms_->setup.lattice.spacing, {}, depth);
+std::optional<ForceEstimate> ForceEstimator::at(double depth) const {
+  if (!knows_model()) return {};
+  return terms_->estimate({}, depth);
 }
 
-std::optional<double> ForceEstimator::spacing_for(double depth, double tolerance) const {
-  if (!terms_) return {};
+double ForceEstimator::spacing_for(double depth, double tolerance) const {
   double fine = 0.0, coarse = terms_->setup.geometry.tip_radius;
   for (int n = 0; n < 40; ++n) {
     const double middle = 0.5 * (fine + coarse);
-    (terms_->grid(middle, {}, depth) <= tolerance ? fine : coarse) = middle;
+    (terms_->grid(middle, {}, depth).grid() <= tolerance ? fine : coarse) = middle;
   }
   return fine;
 }

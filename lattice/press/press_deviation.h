@@ -96,10 +96,12 @@ ActuatorLimits suitable_limits(const PressSetup& setup);
 /// How far a lattice's force is off the continuum's in the same press without inertia and damping,
 /// relative to the force: sizes, none negative.
 struct ForceEstimate {
-  double grid = 0.0;    ///< of masses a spacing apart
-  double model = 0.0;   ///< of what the model's springs cannot be, however fine
-  double motion = 0.0;  ///< of inertia and damping of the rubber, and of scaled masses
-  double sum() const { return grid + model + motion; }
+  double contact = 0.0;  ///< of masses a spacing apart, where they touch
+  double inside = 0.0;   ///< of the same across the wall, and of the ties
+  double model = 0.0;    ///< of what the model's springs cannot be, however fine
+  double motion = 0.0;   ///< of inertia and damping of the rubber, and of scaled masses
+  double grid() const { return contact + inside; }
+  double sum() const { return grid() + model + motion; }
 };
 
 /// Estimates for the samples of one press. None of `published`, whose springs have no modulus of
@@ -131,16 +133,18 @@ class ForceEstimator {
 
   /// Nothing of samples without force, depth or contact radius.
   std::optional<ForceEstimate> of(const meshes::PressSample& sample) const;
-  /// The part of the grid before there is a press, at `depth` [m] > 0: of Hertz' patch, whose
-  /// radius is 0.95 to 1.15 of that of presses to 0.3 of the wall.
-  std::optional<double> grid(double depth) const;
-  /// The spacing [m] at which grid() is `tolerance` at `depth` [m] > 0; may be coarser than a
-  /// lattice can be (coarsest_spacing), and is 0 where the ties alone are worse.
-  std::optional<double> spacing_for(double depth, double tolerance) const;
+  /// Before there is a press, at `depth` [m] > 0: with the radius of Hertz' patch, 0.95 to 1.15 of
+  /// that of presses to 0.3 of the wall.
+  std::optional<ForceEstimate> at(double depth) const;
+  /// The spacing [m] at which the grid's part of at() is `tolerance` at `depth` [m] > 0, of
+  /// `published` that of a hookean lattice; may be coarser than a lattice can be
+  /// (coarsest_spacing), and is 0 where the ties alone are worse.
+  double spacing_for(double depth, double tolerance) const;
 
  private:
   struct Terms;
-  std::shared_ptr<const Terms> terms_;  ///< null: no estimate
+  std::shared_ptr<const Terms> terms_;
+  bool knows_model() const;
 };
 
 }  // namespace fingertip::lattice::inline press

@@ -259,8 +259,7 @@ PressSample StaticPress::sample() const {
   sample.torque_x = torque.x();
   sample.torque_y = torque.y();
   sample.torque_z = torque.z();
-  sample.contact_radius = patch.radius;
-  sample.max_pressure = patch.max_pressure;
+  sample.set_contact(patch.radius, patch.max_pressure);
   return sample;
 }
 

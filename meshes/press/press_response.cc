@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -73,6 +74,24 @@ std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vec
 
 }  // namespace
 
+void PressSample::set_contact(double radius, double peak) {
+  contact_radius = radius;
+  contact_area = std::numbers::pi * radius * radius;
+  mean_pressure = contact_area > 0.0 ? normal_force / contact_area : 0.0;
+  max_pressure = peak;
+}
+
+void PressSample::set_errors(double relative) {
+  constexpr double left = 1e-7;  // by solvers of what vanishes
+  constexpr double coupling = 0.125;
+  if (!std::isfinite(relative)) relative = unknown;  // of no force
+  const double normal = std::abs(normal_force), aside = force().head<2>().norm(),
+               moment = torque().norm(), arm = contact_radius * (normal + aside);
+  force_error = relative * normal;
+  lateral_force_error = aside > left * normal ? relative * (aside + coupling * normal) : unknown;
+  torque_error = moment > left * arm ? relative * (moment + arm) : unknown;
+}
+
 std::span<const PressSample> PressResponse::pressing() const {
   const auto follows =
       std::ranges::adjacent_find(samples_, [](const PressSample& before, const PressSample& now) {
@@ -114,6 +133,19 @@ double PressResponse::normal_force_at(double indentation) const {
   const double h = x[i + 1] - x[i], t = (indentation - x[i]) / h, s = 1.0 - t;
   return s * s * ((1.0 + 2.0 * t) * y[i] + t * h * slope[i]) +
          t * t * ((1.0 + 2.0 * s) * y[i + 1] - s * h * slope[i + 1]);
+}
+
+double PressResponse::relative_error_at(double indentation) const {
+  constexpr double same = 1e-9;  // [m]
+  double before = unknown;
+  for (const PressSample& sample : pressing()) {
+    const double relative = sample.force_error / std::abs(sample.normal_force);
+    if (!std::isfinite(relative)) continue;
+    if (std::abs(sample.indentation - indentation) <= same) return relative;
+    if (sample.indentation > indentation) return std::fmax(before, relative);
+    before = relative;
+  }
+  return before;
 }
 
 void PressResponse::write_csv(const std::filesystem::path& file) const {

@@ -1,6 +1,7 @@
 /// What a press yields, from whichever model: force, torque and contact against indentation.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -22,25 +23,42 @@ struct PressSample {
   double torque_x = unknown;         ///< [N m]
   double torque_y = unknown;         ///< [N m]
   double torque_z = unknown;         ///< [N m]
-  double contact_radius = unknown;   ///< [m]
+  double contact_radius = unknown;   ///< of the circle that has the contact's area [m]
+  double contact_area = unknown;     ///< seen along the normal [m²]
+  double mean_pressure = unknown;    ///< normal_force over it [Pa]
   double max_pressure = unknown;     ///< [Pa]
   double force_error = unknown;      ///< estimated error of normal_force [N]
   double time = unknown;             ///< since the start of the press [s]; empty for static runs
   double lateral_displacement = unknown;  ///< of the plane along t1, seen from the rod [m]
+  double lateral_force_error = unknown;   ///< length of the estimated error of both [N]
+  double torque_error = unknown;          ///< length of the estimated error of all three [N m]
   double stage = unknown;                 ///< of the press's program, from 1; unknown without one
+
+  /// Radius, area, mean and largest pressure; the normal force must be known by then.
+  void set_contact(double radius, double peak);
+  /// Force and torque as vectors; nothing where one of them is unknown.
+  Eigen::Vector3d force() const { return {lateral_force_x, lateral_force_y, normal_force}; }
+  Eigen::Vector3d torque() const { return {torque_x, torque_y, torque_z}; }
+  /// From the `relative` error of a normal force N those of the lateral force Q and the torque T:
+  /// relative (|Q| + |N|/8), for what is off of the pressure pushes aside by
+  /// (1 - 2 nu)/(2 - 2 nu), 1/8 at nu = 0.43; relative (|T| + a (|N| + |Q|)), for its place is
+  /// known to that share of the contact's radius a. Unknown where symmetry leaves no Q or no T.
+  void set_errors(double relative);
 };
 
 /// The columns of response.csv.
 consteval auto fields_of(const PressSample*) {
   return FINGERTIP_ALL_MEMBERS(PressSample, indentation, normal_force, lateral_force_x,
                                lateral_force_y, torque_x, torque_y, torque_z, contact_radius,
-                               max_pressure, force_error, time, lateral_displacement, stage)
+                               max_pressure, force_error, time, contact_area, mean_pressure,
+                               lateral_displacement, lateral_force_error, torque_error, stage)
       .in("m", "indentation contact_radius lateral_displacement")
-      .in("N", "normal_force lateral_force_x lateral_force_y force_error")
-      .in("N m", "torque_x torque_y torque_z")
-      .in("Pa", "max_pressure")
+      .in("N", "normal_force lateral_force_x lateral_force_y force_error lateral_force_error")
+      .in("N m", "torque_x torque_y torque_z torque_error")
+      .in("m^2", "contact_area")
+      .in("Pa", "mean_pressure max_pressure")
       .in("s", "time")
-      .if_known("lateral_displacement stage");
+      .if_known("lateral_displacement lateral_force_error torque_error stage");
 }
 
 /// A curve of samples by increasing indentation, and then, where a lateral motion follows the
@@ -74,6 +92,11 @@ class PressResponse {
   /// (Fritsch & Carlson 1980) through pressing() and the origin, so that it never overshoots.
   /// Throws std::out_of_range beyond the largest sample or below zero.
   double normal_force_at(double indentation) const;
+
+  /// force_error over the force, of the first loading's sample there; elsewhere the larger one of
+  /// the samples beside, before and behind all that have one that of the nearest; NaN where none
+  /// has.
+  double relative_error_at(double indentation) const;
 
   /// Writes the CSV whose first line holds names with units (see README), atomically.
   void write_csv(const std::filesystem::path& file) const;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
+#include "studies/config/finger_defaults.h"
 #include "studies/files/places.h"
 
 namespace fingertip::studies::inline cases {
@@ -111,7 +112,9 @@ LoadedConfig run_config(const Case& study_case, const CaseRun& run) {
   try {
     LoadedConfig loaded = with_sets(study_case.loaded, sets);
     const bool in_time = run.is("variant") && !loaded.config.press.protocol.program.empty();
-    return in_time ? with_sets(loaded, {"press.mode=quasi-static"}) : loaded;
+    if (in_time) loaded = with_sets(loaded, {"press.mode=quasi-static"});
+    keep_spacing(loaded, study_case.loaded);
+    return loaded;
   } catch (const ConfigError& error) {
     throw at_run(error, run);
   }

@@ -13,16 +13,6 @@ using meshes::PressResponse;
 
 namespace {
 
-/// Of a continuum's force at a depth, relative: that of the nearest sample, for it is known at
-/// samples only. NaN where it was not estimated.
-double estimated_force_error(const PressResponse& continuum, double depth) {
-  if (continuum.empty()) return meshes::unknown;
-  const auto nearest = std::ranges::min_element(
-      continuum.samples(), {},
-      [&](const meshes::PressSample& sample) { return std::abs(sample.indentation - depth); });
-  return nearest->force_error / nearest->normal_force;
-}
-
 /// What followed the first loading.
 void compare_later(const PressResponse& response, const PressResponse& reference,
                    ForceComparison& result) {
@@ -61,7 +51,7 @@ ForceComparison compare_forces(const PressResponse& response, const PressRespons
     const double wanted = report::force_at(reference, depth);
     result.force.push_back(force);
     result.reference_force.push_back(wanted);
-    result.reference_error.push_back(estimated_force_error(reference, depth));
+    result.reference_error.push_back(reference.relative_error_at(depth));
     result.error.push_back(force / wanted - 1.0);
   }
   const double reached =

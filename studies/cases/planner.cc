@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "studies/cases/measures.h"
+#include "studies/config/finger_defaults.h"
 #include "studies/config/keys/key_table.h"
 #include "studies/files/read_fields.h"
 #include "studies/fits/runs/law_job.h"
@@ -203,9 +204,10 @@ Job Planner::job_of(const LoadedConfig& loaded, RunResult& result) {
   if (verb == "moduli")
     return moduli_job(config.press.rubber, fit_options(loaded, config.press.lattice.model));
   const auto constants_of = [&](const char* model) {
-    return press_setup(
-               with_sets(loaded, {std::string("lattice.model=") + model, "lattice.constants=auto"}))
-        .lattice.constants;
+    LoadedConfig own =
+        with_sets(loaded, {std::string("lattice.model=") + model, "lattice.constants=auto"});
+    keep_spacing(own, loaded);
+    return press_setup(own).lattice.constants;
   };
   return cubes_job(config.press.rubber, constants_of("central"), constants_of("hookean"),
                    config.press.lattice.spacing);
@@ -273,8 +275,10 @@ std::vector<PlannedJob> Planner::predictions(const fs::path& folder) {
     if (result.run->is("fit")) fit = &result;
     if (result.fit == nullptr) continue;
     const fs::path material = fs::absolute(folder / fit->folder / "material.toml");
-    result.setup = press_setup(with_sets(predicted_config(case_, *result.fit, *result.run),
-                                         {"lattice.constants=" + material.string()}));
+    LoadedConfig own = with_sets(predicted_config(case_, *result.fit, *result.run),
+                                 {"lattice.constants=" + material.string()});
+    keep_spacing(own, case_.loaded);
+    result.setup = press_setup(own);
     jobs.push_back({result.folder, press_job(result.setup), true});
   }
   return jobs;

@@ -39,18 +39,6 @@ double first_depth(const LoadedConfig& loaded) {
   return asked ? protocol.samples.front() : 0.1 * protocol.depth;
 }
 
-void choose_spacing(LoadedConfig& loaded) {
-  Config& config = loaded.config;
-  Entry& entry = loaded.entries.at("lattice.spacing");
-  if (entry.given) return;
-  lattice::LatticeSettings& lattice = config.press.lattice;
-  const double coarsest = lattice::coarsest_spacing(config.press.geometry, lattice.model);
-  // Of an invalid dome it may be anything.
-  if (!(coarsest > 0.0 && coarsest < lattice.spacing)) return;
-  take_spacing(loaded, divisor_of(config.press.geometry, coarsest));
-  entry = {fmt::format("\"tip_radius/{:.0f}\"", *config.spacing_divisor), chosen_place, false};
-}
-
 void choose_depth(LoadedConfig& loaded, const char* key, double& depth) {
   Entry& entry = loaded.entries.at(key);
   const double thickness = loaded.config.press.geometry.thickness();
@@ -63,29 +51,44 @@ void choose_depth(LoadedConfig& loaded, const char* key, double& depth) {
 }  // namespace
 
 void choose_for_finger(LoadedConfig& loaded) {
-  choose_spacing(loaded);
   meshes::PressProtocol& protocol = loaded.config.press.protocol;
   if (protocol.samples.empty() && protocol.program.empty())
     choose_depth(loaded, "press.depth", protocol.depth);
   choose_depth(loaded, "calibration.depth", loaded.config.calibration.depth);
 }
 
+namespace {
+
+/// Of the coarsest lattice that the finger's walls allow.
+double least_divisor(const lattice::PressSetup& press) {
+  return divisor_of(press.geometry, lattice::coarsest_spacing(press.geometry, press.lattice.model));
+}
+
+/// Whose estimate chooses the spacing, whatever the model: one configuration has one grid.
+lattice::ForceEstimator estimator_of_cells(lattice::PressSetup press) {
+  press.lattice.model = lattice::ModelKind::hookean;
+  return lattice::ForceEstimator(press);
+}
+
+}  // namespace
+
 void choose_automatic_spacing(LoadedConfig& loaded) {
   const Config& config = loaded.config;
   if (!config.automatic_spacing) return;
   const lattice::PressSetup& press = config.press;
-  const meshes::Geometry& geometry = press.geometry;
-  const double usual = meshes::Geometry().tip_radius / lattice::LatticeSettings().spacing,
-               coarsest =
-                   divisor_of(geometry, lattice::coarsest_spacing(geometry, press.lattice.model));
-  const auto wanted =
-      lattice::ForceEstimator(press).spacing_for(first_depth(loaded), config.spacing_tolerance);
-  double divisor = wanted ? divisor_of(geometry, *wanted) : std::round(usual);
+  double divisor = divisor_of(press.geometry, estimator_of_cells(press).spacing_for(
+                                                  first_depth(loaded), config.spacing_tolerance));
   // Masses go with the cube.
-  const double masses = meshes::expected_particle_count(geometry, geometry.tip_radius / divisor);
+  const double masses =
+      meshes::expected_particle_count(press.geometry, press.geometry.tip_radius / divisor);
   if (masses > config.max_particles)
     divisor = std::floor(divisor * std::cbrt(config.max_particles / masses));
-  take_spacing(loaded, std::max(divisor, coarsest));
+  take_spacing(loaded, std::max(divisor, least_divisor(press)));
+}
+
+void keep_spacing(LoadedConfig& loaded, const LoadedConfig& of) {
+  if (!loaded.config.automatic_spacing || !of.config.automatic_spacing) return;
+  take_spacing(loaded, std::max(*of.config.spacing_divisor, least_divisor(loaded.config.press)));
 }
 
 void choose_limits(LoadedConfig& loaded) {
@@ -149,47 +152,39 @@ namespace {
 
 /// What an automatic spacing of so many masses is good for.
 std::string accuracy_note(const LoadedConfig& loaded, double masses) {
+  constexpr double many = 1e6;
   const Config& config = loaded.config;
   const double depth = first_depth(loaded), wanted = config.spacing_tolerance;
-  const auto error = lattice::ForceEstimator(config.press).grid(depth);
+  const lattice::ModelKind model = config.press.lattice.model;
+  const auto error = estimator_of_cells(config.press).at(depth);
   std::string text;
-  if (masses > config.max_particles)
-    text =
-        fmt::format("more than lattice.max_particles = {:.3g}, for the finger's walls ask for it; ",
-                    config.max_particles);
-  else if (error && *error > wanted)
+  if (masses > config.max_particles) {
+    const std::string thin = masses > many ? thin_part(config.press.geometry) : "";
+    text = fmt::format(
+        "more than lattice.max_particles = {:.3g}, for the finger's walls ask for it{}{}; ",
+        config.max_particles, thin.empty() ? "" : ": ", thin);
+  } else if (error && error->grid() > wanted) {
     text = fmt::format("as fine as lattice.max_particles = {:.3g} allows; ", config.max_particles);
-  if (!error) return text + "the published model has no estimate of its force's error";
-  return text + fmt::format(
-                    "it may put {:.2g} % on the force at {:.3g} mm, and less below ({:.3g} % "
-                    "wanted)",
-                    100.0 * *error, 1e3 * depth, 100.0 * wanted);
+  }
+  text += fmt::format(
+      "it may put {:.2g} % on the force at {:.3g} mm, and less at larger depths ({:.3g} % wanted)",
+      100.0 * error->grid(), 1e3 * depth, 100.0 * wanted);
+  if (model == lattice::ModelKind::published || model == lattice::ModelKind::central)
+    text += fmt::format(", but of a hookean lattice; what {} springs cannot be comes on top",
+                        lattice::name(model));
+  return text;
 }
 
 }  // namespace
 
-std::vector<std::string> spacing_notes(const LoadedConfig& loaded) {
-  constexpr double many = 1e6;
-  const Entry& entry = loaded.entries.at("lattice.spacing");
-  const bool automatic = loaded.config.automatic_spacing;
-  if (entry.place != chosen_place && !automatic) return {};
-  const meshes::Geometry& geometry = loaded.config.press.geometry;
-  const double spacing = loaded.config.press.lattice.spacing,
-               masses = meshes::expected_particle_count(geometry, spacing);
-  std::string why;
-  if (automatic) {
-    why = accuracy_note(loaded, masses);
-  } else {
-    const std::string thin = masses > many ? thin_part(geometry) : "";
-    why = fmt::format(
-        "the coarsest that this finger's walls allow; the usual {} is too coarse for "
-        "them{}{}",
-        find_key("lattice.spacing")->preset, thin.empty() ? "" : "; ", thin);
-  }
-  return {fmt::format(
-      "lattice.spacing = {} ({}{:.3g} mm, some {:.2g} masses): {}", entry.literal,
-      automatic ? fmt::format("tip_radius/{:.0f}, ", *loaded.config.spacing_divisor) : "",
-      1e3 * spacing, masses, why)};
+std::string spacing_note(const LoadedConfig& loaded) {
+  if (!loaded.config.automatic_spacing) return "";
+  const lattice::PressSetup& press = loaded.config.press;
+  const double spacing = press.lattice.spacing,
+               masses = meshes::expected_particle_count(press.geometry, spacing);
+  return fmt::format(
+      "lattice.spacing = \"auto\" (tip_radius/{:.0f}, {:.3g} mm, some {:.2g} masses): {}",
+      *loaded.config.spacing_divisor, 1e3 * spacing, masses, accuracy_note(loaded, masses));
 }
 
 }  // namespace fingertip::studies::inline config

@@ -5,25 +5,28 @@
 
 namespace fingertip::studies::inline config {
 
-/// Where lattice.spacing, press.depth and calibration.depth are left at defaults that this finger
-/// cannot have, values that it can: a spacing of tip_radius/N, N whole, just fine enough for its
-/// walls; a tenth of its thickness. The entries say so in place of "default".
+/// Where press.depth and calibration.depth are left at defaults that this finger cannot have, a
+/// tenth of its thickness. The entries say so in place of "default".
 void choose_for_finger(LoadedConfig& loaded);
 
 /// Of lattice.spacing = "auto" the coarsest tip_radius/N, N whole, that the finger's walls allow
-/// and whose estimate (lattice::ForceEstimator::grid) keeps lattice.tolerance from the first asked
+/// and whose estimate (lattice::ForceEstimator::at) keeps lattice.tolerance from the first asked
 /// depth on, or from a tenth of the depth, with no more masses than lattice.max_particles where the
-/// walls allow that; of the published model, which has no estimate, tip_radius/12 likewise. The
-/// configuration must be valid.
+/// walls allow that; of every model that of a hookean lattice, so that models stand on one grid.
+/// The configuration must be valid.
 void choose_automatic_spacing(LoadedConfig& loaded);
+
+/// Where both are automatic the spacing of `of`, or the coarsest that this finger allows: for
+/// presses of one fit or one case.
+void keep_spacing(LoadedConfig& loaded, const LoadedConfig& of);
 
 /// The same of controller.force_limit and torque_limit, where a press under the controller is
 /// expected to meet them: lattice::suitable_limits. The configuration must be valid.
 void choose_limits(LoadedConfig& loaded);
 
-/// What choose_for_finger or choose_automatic_spacing has taken for a lattice; empty where the
-/// default stands or one is given.
-std::vector<std::string> spacing_notes(const LoadedConfig& loaded);
+/// What choose_automatic_spacing has taken and what that is good for; empty where a spacing is
+/// given.
+std::string spacing_note(const LoadedConfig& loaded);
 
 /// Where little of what may touch rules the spacing: how much rubber lies behind the rest, and what
 /// lattice would do for that. Empty for fingers of nearly one wall, and for domes.

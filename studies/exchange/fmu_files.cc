@@ -53,8 +53,13 @@ std::string settings_of(const LoadedConfig& loaded, std::vector<FmuExport::File>
     std::string keys;
     for (const Key& key : key_table()) {
       const Entry& entry = loaded.entries.at(key.full_name());
-      if (key.section != section || !entry.given || key.full_name() == "press.mode") continue;
+      const bool spacing = key.full_name() == "lattice.spacing";
+      if (key.section != section || !(entry.given || spacing) || key.full_name() == "press.mode")
+        continue;
       std::string literal = entry.literal;
+      // The lattice that is told stays.
+      if (spacing && loaded.config.automatic_spacing)
+        literal = fmt::format("\"tip_radius/{:.0f}\"", *loaded.config.spacing_divisor);
       if (const fs::path file = file_of(loaded.config, key.full_name()); !file.empty()) {
         files.push_back(packed(file, loaded.config.solid.up));
         literal = '"' + files.back().name + '"';

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "meshes/tables/file_fields.h"
-#include "studies/files/transfer_file.h"
+#include "studies/files/press_summary.h"
 
 namespace fingertip::studies::inline files {
 
@@ -31,13 +31,12 @@ struct RealTimeRecord {
   /// Of the run, in the slowest 10 ms (live: half second) and as a whole; 1 is the most of a live
   /// view.
   double slowest_factor = meshes::unknown, whole_factor = meshes::unknown;
-  std::string force_error_of;  ///< what the errors are of, or why there are none
-  std::optional<TransferObstacleEntry> force_error;
+  std::optional<ForceErrorEntry> force_error;
 };
 consteval auto fields_of(const RealTimeRecord*) {
   return FINGERTIP_ALL_MEMBERS(RealTimeRecord, asked, spacing_asked, spacing, integrator, step,
                                threads, expected_factor, tried, trials, slowest_factor,
-                               whole_factor, force_error_of, force_error)
+                               whole_factor, force_error)
       .if_known("slowest_factor whole_factor force_error");
 }
 

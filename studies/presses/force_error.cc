@@ -1,8 +1,11 @@
 #include "studies/presses/force_error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "studies/files/shown_units.h"
 #include "studies/presses/press_setup.h"
 
 namespace fingertip::studies::inline presses {
@@ -15,17 +18,6 @@ using meshes::PressSample;
 bool same_length(double a, double b) {
   constexpr double same = 1e-9;  // [m]
   return std::abs(a - b) <= same;
-}
-
-/// Relative error of the continuum between its samples around `depth`.
-double relative_error_at(std::span<const PressSample> samples, double depth) {
-  const auto after = std::ranges::lower_bound(samples, depth, {}, &PressSample::indentation);
-  const auto relative = [](const PressSample& sample) {
-    return sample.force_error / sample.normal_force;
-  };
-  if (after == samples.end()) return relative(samples.back());
-  if (after == samples.begin() || same_length(after->indentation, depth)) return relative(*after);
-  return std::max(relative(*after), relative(*(after - 1)));
 }
 
 }  // namespace
@@ -69,28 +61,49 @@ ErrorSource error_source(const LoadedConfig& loaded) {
           std::string("from the continuum at ") + (linear ? "small" : "large") + " strain"};
 }
 
+std::string error_words(const ForceErrorEntry& entry) {
+  const std::string words = "force error " + entry.statement;
+  if (std::isnan(entry.largest)) return words;
+  return fmt::format("{}: at most {:.3g} %, at {}", words, 100.0 * entry.largest,
+                     shown_units().length.text(entry.indentation));
+}
+
+namespace {
+
+/// How far the sample is off another one, and that one's own errors.
+void put_errors(PressSample& sample, const PressSample& truth) {
+  sample.set_errors(truth.force_error / std::abs(truth.normal_force));
+  sample.force_error = truth.force_error + std::abs(sample.normal_force - truth.normal_force);
+  sample.lateral_force_error += (sample.force() - truth.force()).head<2>().norm();
+  sample.torque_error += (sample.torque() - truth.torque()).norm();
+}
+
+}  // namespace
+
 PressResponse with_force_error(const PressResponse& response, const PressResponse& continuum) {
   std::vector<PressSample> samples = response.samples();
   const auto pressed = continuum.pressing();
   const std::size_t loading = response.pressing().size();
+  const auto same_place = [&](const PressSample& sample, double PressSample::*place) {
+    return [&sample, place](const PressSample& other) {
+      return same_length(other.*place, sample.*place);
+    };
+  };
   for (std::size_t i = 0; i < samples.size(); ++i) {
     PressSample& sample = samples[i];
-    sample.force_error = meshes::unknown;
+    sample.set_errors(meshes::unknown);
     if (continuum.empty()) continue;
-    if (i < loading) {
-      const double depth = sample.indentation,
-                   known = std::clamp(depth, pressed.front().indentation, continuum.depth());
-      if (!same_length(depth, known)) continue;
-      const double force = continuum.normal_force_at(known);
-      sample.force_error =
-          std::abs(sample.normal_force - force) + relative_error_at(pressed, depth) * force;
-    } else {
-      const auto beside = std::ranges::find_if(continuum.sliding(), [&](const PressSample& other) {
-        return same_length(other.lateral_displacement, sample.lateral_displacement);
-      });
-      if (beside != continuum.sliding().end())
-        sample.force_error =
-            std::abs(sample.normal_force - beside->normal_force) + beside->force_error;
+    const auto among = i < loading ? pressed : continuum.sliding();
+    const auto beside = std::ranges::find_if(
+        among, same_place(sample, i < loading ? &PressSample::indentation
+                                              : &PressSample::lateral_displacement));
+    if (beside != among.end()) {
+      put_errors(sample, *beside);
+    } else if (i < loading && sample.indentation > pressed.front().indentation &&
+               sample.indentation < continuum.depth()) {
+      const double force = continuum.normal_force_at(sample.indentation);
+      sample.force_error = std::abs(sample.normal_force - force) +
+                           continuum.relative_error_at(sample.indentation) * force;
     }
   }
   return PressResponse(std::move(samples));
@@ -101,7 +114,7 @@ PressResponse with_estimated_error(const PressResponse& response,
   std::vector<PressSample> samples = response.samples();
   for (PressSample& sample : samples) {
     const auto estimate = estimator.of(sample);
-    sample.force_error = estimate ? estimate->sum() * sample.normal_force : meshes::unknown;
+    sample.set_errors(estimate ? estimate->sum() : meshes::unknown);
   }
   return PressResponse(std::move(samples));
 }

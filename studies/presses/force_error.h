@@ -8,6 +8,7 @@
 #include "lattice/press/press_deviation.h"
 #include "meshes/press/press_response.h"
 #include "studies/config/loaded_config.h"
+#include "studies/files/press_summary.h"
 
 namespace fingertip::studies::inline presses {
 
@@ -28,14 +29,19 @@ ErrorSource error_source(const LoadedConfig& loaded);
 /// What is left where the continuum is not to be had: `why` is a sentence's end.
 ErrorSource estimated_source(lattice::ModelKind model, const std::string& why);
 
+/// "force error estimated, for ...: at most 2 %, at 1 mm".
+std::string error_words(const ForceErrorEntry& entry);
+
 /// `response` with force_error = |F - F_continuum| plus the continuum's own error [N], from the
 /// first depth of the continuum to its last, and of a lateral motion where both have the same
 /// displacement; unknown elsewhere. Between depths the continuum's force is interpolated, and its
-/// relative error is the larger one of both sides.
+/// relative error is the larger one of both sides. At the continuum's depths likewise the errors of
+/// lateral force and torque, where symmetry leaves any.
 meshes::PressResponse with_force_error(const meshes::PressResponse& response,
                                        const meshes::PressResponse& continuum);
 
-/// `response` with the estimate as force_error [N]; unknown where there is none.
+/// `response` with the estimate as its errors (PressSample::set_errors); unknown where there is
+/// none.
 meshes::PressResponse with_estimated_error(const meshes::PressResponse& response,
                                            const lattice::ForceEstimator& estimator);
 

@@ -146,10 +146,6 @@ std::vector<meshes::Violation> broken_by_spacing(const LoadedConfig& loaded) {
                  "which needs no lattice"}};
 }
 
-bool is_chosen(const LoadedConfig& loaded) {
-  return loaded.config.automatic_spacing || !loaded.entries.at("lattice.spacing").given;
-}
-
 /// A rod of the usual density may be too light for this finger under the controller: nobody chose
 /// it, so take one that is not.
 void choose_rod(LoadedConfig& loaded) {
@@ -192,8 +188,8 @@ void add_material(LatticeUse use, LoadedConfig& complete) {
 
 LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use) {
   LoadedConfig complete = loaded;
-  if (use != LatticeUse::none)
-    for (const std::string& note : spacing_notes(loaded)) complete.notes.push_back(note);
+  if (const std::string note = spacing_note(loaded); use != LatticeUse::none && !note.empty())
+    complete.notes.push_back(note);
   if (loaded.config.constants == ConstantsSource::file) add_material(use, complete);
   if (use == LatticeUse::press) choose_rod(complete);
   return complete;
@@ -219,7 +215,7 @@ double equilibrium_memory(const lattice::PressSetup& press) {
 }
 
 lattice::PressSetup press_setup(const LoadedConfig& loaded, LatticeUse use) {
-  const bool any_spacing = use == LatticeUse::none && is_chosen(loaded);
+  const bool any_spacing = use == LatticeUse::none && loaded.config.automatic_spacing;
   if (const auto broken = broken_by_spacing(loaded); !broken.empty() && !any_spacing)
     throw loaded.locate(broken);
   check_constants_source(loaded);
@@ -239,9 +235,19 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded, LatticeUse use) {
   return setup;
 }
 
+LoadedConfig at_pace(const LoadedConfig& loaded) {
+  LoadedConfig coarser = loaded;
+  Entry& tolerance = coarser.entries.at("lattice.tolerance");
+  if (!loaded.config.automatic_spacing || tolerance.given) return coarser;
+  coarser.config.spacing_tolerance = 0.05;
+  tolerance = {"0.05", "default for this verb", false};
+  choose_automatic_spacing(coarser);
+  return coarser;
+}
+
 lattice::PressSetup free_press(ConfigSource source) {
   source.sets.emplace_back("press.mode=pid");
-  return press_setup(with_material(load_config(source), LatticeUse::press));
+  return press_setup(with_material(at_pace(load_config(source)), LatticeUse::press));
 }
 
 fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded) {
@@ -294,7 +300,7 @@ std::vector<meshes::Violation> beyond_the_lattice(const LoadedConfig& loaded) {
 void check_all(const LoadedConfig& loaded) {
   continuum_setup(loaded);
   if (const auto broken = broken_by_spacing(loaded); !broken.empty()) {
-    if (is_chosen(loaded)) return;  // whoever builds a lattice will be told
+    if (loaded.config.automatic_spacing) return;  // whoever builds a lattice will be told
     throw loaded.locate(broken);
   }
   LoadedConfig within_the_lattice = loaded;

@@ -29,8 +29,12 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded, LatticeUse use = Lat
 /// What the equilibrium of a press at rest takes, within a quarter; 0 for one in motion [byte].
 double equilibrium_memory(const lattice::PressSetup& press);
 
+/// For fingers that somebody moves while they are pressed, and for what is not a press's force
+/// (vibrations, a grasp): where neither a spacing nor lattice.tolerance is given, 5 % of tolerance.
+LoadedConfig at_pace(const LoadedConfig& loaded);
+
 /// The press of a finger whose rod nobody moves but the caller (press.mode pid), for loops of
-/// others. Throws as press_setup.
+/// others, at_pace. Throws as press_setup.
 lattice::PressSetup free_press(ConfigSource source);
 
 /// The continuum's job. Throws ConfigError.

@@ -22,17 +22,22 @@ namespace fs = std::filesystem;
 
 using Cells = std::vector<std::string>;
 
-/// Columns of each curve, of the first one's force alone: its name before each of `titles`.
+/// Columns of each curve, of the first one's force alone: its name before each of `titles`; then
+/// the errors of all.
 Cells with_curves(Cells heads, const Comparison& comparison, const Cells& titles) {
+  const auto add = [&heads](const ComparedCurve& curve, const std::string& title) {
+    heads.push_back(meshes::csv_cell(curve.label + " " + title));
+  };
   for (const ComparedCurve& curve : comparison.curves)
     for (const std::string& title : titles) {
-      heads.push_back(meshes::csv_cell(curve.label + " " + title));
+      add(curve, title);
       if (&curve == &comparison.curves.front()) break;
     }
+  for (const ComparedCurve& curve : comparison.curves) add(curve, "force_error [N]");
   return heads;
 }
 
-/// Force and difference of every curve, of the first one the force alone.
+/// Force and difference of every curve, of the first one the force alone; then the errors of all.
 Cells with_forces(Cells cells, const std::vector<ComparedForce>& forces, bool tell_interpolated) {
   for (const ComparedForce& force : forces) {
     cells.push_back(meshes::to_text(force.force.value));
@@ -41,6 +46,8 @@ Cells with_forces(Cells cells, const std::vector<ComparedForce>& forces, bool te
     if (tell_interpolated)
       cells.push_back(if_known(force.force.value, force.force.interpolated ? "1" : "0"));
   }
+  for (const ComparedForce& force : forces)
+    cells.push_back(if_known(force.force.error, meshes::to_text(force.force.error)));
   return cells;
 }
 
@@ -125,30 +132,40 @@ Panel lateral_panel(const std::vector<ComparedCurve>& curves) {
   return panel;
 }
 
+/// What the errors of both leave open of a difference, of one of them where the other is unknown;
+/// no bar where both are.
+double error_of_difference(const std::vector<ComparedForce>& forces, std::size_t curve) {
+  const CurveForce &own = forces[curve].force, &first = forces.front().force;
+  const auto relative = [](const CurveForce& force) { return force.error / std::abs(force.value); };
+  const double a = relative(own), b = relative(first);
+  return std::abs(own.value / first.value) * (std::isnan(a) ? b : std::isnan(b) ? a : a + b);
+}
+
 Panel difference_panel(const Comparison& comparison) {
   Panel panel = over_indentation("relative difference [%]", above);
   for (std::size_t i = 1; i < comparison.curves.size(); ++i) {
     Series series{comparison.curves[i].label, "", comparison.curves[i].style};
     for (std::size_t d = 0; d < comparison.depths.size(); ++d)
-      if (const double difference = comparison.rows[d][i].difference; !std::isnan(difference))
+      if (const double difference = comparison.rows[d][i].difference; !std::isnan(difference)) {
         series.add(shown_units().length(comparison.depths[d]), 100.0 * difference);
+        series.error.push_back(100.0 * error_of_difference(comparison.rows[d], i));
+      }
     panel.series.push_back(std::move(series));
   }
   return panel;
 }
 
-/// A force, from the second on with its difference from the first.
+/// A force with its error, from the second on with its difference from the first.
 void add_forces(std::vector<Cell>& row, const std::vector<ComparedForce>& forces, bool graded) {
   const ShownUnit& unit = shown_units().force;
   for (const ComparedForce& force : forces) {
-    const std::string value = number(unit(force.force.value));
-    if (std::isnan(force.force.value))
-      row.emplace_back();
-    else if (&force == &forces.front())
-      row.push_back(amount_cell(force.force.value, unit));
-    else
-      row.emplace_back((force.force.interpolated ? "≈ " : "") + value, percent(force.difference),
-                       graded ? grade(force.difference) : Grade::none);
+    Cell& cell = row.emplace_back();
+    if (std::isnan(force.force.value)) continue;
+    cell = amount_cell(force.force.value, unit, force.force.error);
+    if (&force == &forces.front()) continue;
+    if (force.force.interpolated) cell.text.insert(0, "≈ ");
+    cell.note = percent(force.difference);
+    if (graded) cell.grade = grade(force.difference);
   }
 }
 

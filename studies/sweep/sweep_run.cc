@@ -38,7 +38,8 @@ Job job_of(const Sweep& sweep, const SweepPoint& point) {
   check_all(loaded);
   if (sweep.verb == "reference") return reference_job(continuum_setup(loaded));
   const bool press = sweep.verb == "press";
-  loaded = with_material(loaded, press ? LatticeUse::press : LatticeUse::modes);
+  loaded = press ? with_material(loaded, LatticeUse::press)
+                 : with_material(at_pace(loaded), LatticeUse::modes);
   if (press) return press_job(press_setup(loaded));
   if (sweep.verb == "modes") return modes_job(press_setup(loaded), loaded.config.lattice_modes);
   return grasp_job(grasp_setup(loaded));

@@ -2,22 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
+#include "lattice/press/press_deviation.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/tables/fields_json.h"
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/config/asked_units.h"
-#include "studies/exchange/contact_curves.h"
-#include "studies/exchange/transfer.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
 #include "studies/jobs/interrupt.h"
+#include "studies/presses/force_error.h"
 #include "studies/presses/press_job.h"
 #include "studies/presses/press_setup.h"
-#include "studies/report/chapters/press/press_chapters.h"
-#include "studies/report/page/terminal.h"
 
 namespace fingertip::studies::inline cli::inline command_line {
 
@@ -79,26 +76,6 @@ std::string step_text(double step) {
                                     : fmt::format("{:.3g} ms", 1e3 * step);
 }
 
-/// The press straight down whose continuum takes seconds; its strain is the lattice's where none
-/// is asked for.
-LoadedConfig pressed_straight(LoadedConfig loaded) {
-  std::vector<std::string> sets;
-  for (const char* key : {"press.tilt", "press.lateral", "press.program"})
-    loaded.entries.at(key).given = false;
-  if (!loaded.entries.at("reference.strain").given &&
-      loaded.config.press.lattice.kinematics == lattice::Kinematics::small)
-    sets.emplace_back("reference.strain=linear");
-  return with_sets(loaded, sets);
-}
-
-ForetoldModel this_press(const meshes::PressResponse& response) {
-  return by_law("this press", [&response](const ContactCurve&, double depth) {
-    return depth <= response.depth() * (1.0 + 1e-6)
-               ? response.normal_force_at(std::min(depth, response.depth()))
-               : meshes::unknown;
-  });
-}
-
 }  // namespace
 
 RealTimeRun real_time_run(const CommandLine& line) {
@@ -138,39 +115,18 @@ void RealTimeRun::write(const fs::path& folder) const {
   meshes::write_json_file(record, folder / real_time_name);
 }
 
-void RealTimeRun::find_force_error(Session& session,
-                                   const std::optional<meshes::PressResponse>& response) {
-  record.force_error.reset();
-  const LoadedConfig straight = pressed_straight(with_material(loaded, LatticeUse::modes));
-  if (!straight.config.continuum().axisymmetric()) {
-    record.force_error_of =
-        "not known: the continuum of a finger that is no body of revolution takes long; reference "
-        "and compare tell it";
-    return;
+void RealTimeRun::estimate_force_error(const lattice::PressSetup& setup) {
+  if (loaded.config.force_error == ForceErrorBy::nothing) return;
+  const lattice::ForceEstimator estimator(setup);
+  ForceErrorEntry entry{estimated_source(setup.lattice.model, "nobody has pressed yet").statement};
+  for (int tenth = 1; tenth <= 10; ++tenth) {
+    const double depth = 0.1 * tenth * setup.protocol.depth;
+    const auto error = estimator.at(depth);
+    if (!error || error->sum() <= std::fmax(0.0, entry.largest)) continue;
+    entry.largest = error->sum();
+    entry.indentation = depth;
   }
-  const std::string failure = failure_of([&] {
-    const ContactCurves contact(straight, ContactCurves::Of::lattice);
-    std::vector<PlannedJob> jobs = contact.jobs();
-    for (PlannedJob& job : jobs) job.exhibit = true;
-    session.run_all(jobs);
-    const std::vector<ContactCurve> curves = contact.read(session.folder().path());
-    if (curves.front().empty()) {
-      record.force_error_of = "not known: the continuum did not converge";
-      return;
-    }
-    std::vector<ForetoldModel> models = {lattice_at_rest()};
-    const bool is_straight = not_straight(loaded.config.press.protocol).empty();
-    if (response && is_straight) models.push_back(this_press(*response));
-    record.force_error_of =
-        fmt::format("against the continuum at {} strain{}",
-                    straight.config.press.lattice.kinematics == lattice::Kinematics::small &&
-                            !loaded.entries.at("reference.strain").given
-                        ? "small"
-                        : "large",
-                    is_straight ? "" : ", of a press straight to the same depth");
-    record.force_error = transfer_of("", "", {}, curves, models).obstacles.front();
-  });
-  if (!failure.empty()) record.force_error_of = "not known: " + failure;
+  record.force_error = entry;
 }
 
 std::string RealTimeRun::text() const {
@@ -179,9 +135,6 @@ std::string RealTimeRun::text() const {
     text += fmt::format("real-time factor {:.3g} in the slowest stretch ({:.3g} expected){}\n",
                         record.slowest_factor, record.expected_factor,
                         record.slowest_factor < 1.0 ? ": NOT KEPT UP" : "");
-  text += "force error of this spacing at rest " + record.force_error_of + "\n";
-  if (record.force_error)
-    text += report::tables_text(report::real_time_chapter(record), {"errors"});
   return text;
 }
 

@@ -1,14 +1,11 @@
 /// --real-time of press and live: a lattice that keeps up on this machine, and what it costs.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "meshes/press/press_response.h"
+#include "lattice/press/press_setup.h"
 #include "studies/cli/command_line/command_line.h"
 #include "studies/files/real_time_record.h"
-#include "studies/jobs/session.h"
 #include "studies/presses/pace_trial.h"
 
 namespace fingertip::studies::inline cli::inline command_line {
@@ -22,10 +19,9 @@ struct RealTimeRun {
   std::string note() const;
   /// Writes real_time.json.
   void write(const std::filesystem::path& folder) const;
-  /// Has `session` press the continuum and the lattice at rest, where that takes seconds, and keeps
-  /// the force errors; with `response` also those of this press.
-  void find_force_error(Session& session, const std::optional<meshes::PressResponse>& response);
-  /// Factors and force errors for the screen.
+  /// Before anybody presses: the estimate from a tenth of the depth on.
+  void estimate_force_error(const lattice::PressSetup& setup);
+  /// The factor for the screen.
   std::string text() const;
 };
 

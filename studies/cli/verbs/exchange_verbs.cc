@@ -81,7 +81,7 @@ std::optional<ContactCurves> lattice_curves(const LoadedConfig& loaded) {
 }
 
 int export_fmu(const CommandLine& line) {
-  const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::press);
+  const LoadedConfig loaded = with_material(at_pace(load_checked(line)), LatticeUse::press);
   const FmuExport unit = fmu_export(loaded);
   const auto curves = lattice_curves(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {

@@ -41,7 +41,7 @@ void print_grasp(const lattice::GraspSetup& setup, const GraspSummary& summary) 
 }  // namespace
 
 int run_grasp(const CommandLine& line) {
-  const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::modes);
+  const LoadedConfig loaded = with_material(at_pace(load_checked(line)), LatticeUse::modes);
   const lattice::GraspSetup setup = grasp_setup(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const JobResult result = session.run({"", grasp_job(setup), false});

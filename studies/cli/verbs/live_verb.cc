@@ -9,7 +9,9 @@
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/cli/verbs/verbs.h"
 #include "studies/config/asked_units.h"
+#include "studies/config/finger_defaults.h"
 #include "studies/jobs/interrupt.h"
+#include "studies/presses/force_error.h"
 #include "studies/presses/press_setup.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
@@ -42,9 +44,13 @@ int serve_in_real_time(const CommandLine& line) {
   const lattice::PressSetup setup = press_setup(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const std::filesystem::path& folder = session.folder().path();
-    run.find_force_error(session, std::nullopt);
+    run.estimate_force_error(setup);
     run.write(folder);
-    if (!line.quiet) fmt::print("{}run folder: {}\n", run.text(), folder.string());
+    if (!line.quiet) {
+      fmt::print("{}", run.text());
+      if (run.record.force_error) fmt::print("{}\n", error_words(*run.record.force_error));
+      fmt::print("run folder: {}\n", folder.string());
+    }
     run.record.slowest_factor = serve(line, setup);
     run.write(folder);
     if (!line.quiet && !std::isnan(run.record.slowest_factor))
@@ -58,9 +64,11 @@ int serve_in_real_time(const CommandLine& line) {
 
 int run_live(const CommandLine& line) {
   if (line.real_time) return serve_in_real_time(line);
-  const LoadedConfig loaded = load_checked(line);
+  const LoadedConfig loaded = at_pace(load_checked(line));
   const lattice::PressSetup setup = press_setup(loaded);
   const ShowIn units(asked_units(loaded));
+  if (const std::string note = spacing_note(loaded); !note.empty())
+    fmt::print(stderr, "fingertip: note: {}\n", note);
   watch_for_interrupts();
   serve(line, setup);
   return 0;

@@ -218,9 +218,11 @@ meshes::PressResponse press_continuum(Session& session, lattice::ModelKind model
 }
 
 /// Gives a press that is done the error of its forces, as `run.error` says: the column force_error
-/// of its response.csv, force_error in its summary.json, a line for the screen.
-std::string find_force_error(ErrorSource source, const lattice::PressSetup& setup, Session& session,
-                             ToldSummary& told, meshes::PressResponse& response) {
+/// of its response.csv, force_error in its summary.json. Nothing where none is wanted.
+std::optional<ForceErrorEntry> find_force_error(ErrorSource source,
+                                                const lattice::PressSetup& setup, Session& session,
+                                                ToldSummary& told,
+                                                meshes::PressResponse& response) {
   const std::filesystem::path& folder = session.folder().path();
   const meshes::PressResponse continuum =
       source.continuum ? press_continuum(session, setup.lattice.model, source)
@@ -235,7 +237,6 @@ std::string find_force_error(ErrorSource source, const lattice::PressSetup& setu
     return {};
   }
   ForceErrorEntry entry{source.statement};
-  std::string words = "force error " + source.statement;
   std::vector<meshes::PressSample> known = wanted_samples(response, setup.protocol);
   std::erase_if(known, [](const meshes::PressSample& sample) {
     return !std::isfinite(sample.force_error / sample.normal_force);
@@ -243,11 +244,9 @@ std::string find_force_error(ErrorSource source, const lattice::PressSetup& setu
   if (const WorstError worst = worst_error(known); worst.relative > 0.0) {
     entry.largest = worst.relative;
     entry.indentation = worst.indentation;
-    words += fmt::format(": at most {:.3g} %, at {}", 100.0 * worst.relative,
-                         shown_units().length.text(worst.indentation));
   }
   told.put("force_error", meshes::json_of<nlohmann::ordered_json>(entry));
-  return words + "\n";
+  return entry;
 }
 
 }  // namespace
@@ -283,12 +282,12 @@ int run_press(const CommandLine& line) {
     const PressSummary summary = told.press();
     auto response = meshes::PressResponse::read_csv(folder / "response.csv");
     session.expect_later(0.0);
-    const std::string error = find_force_error(source, setup, session, told, response);
+    const auto error = find_force_error(source, setup, session, told, response);
     if (!line.quiet) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
       print_response(response, setup.protocol);
-      fmt::print("{}", error);
+      if (error) fmt::print("{}\n", error_words(*error));
       print_press_facts(summary, result.reused);
       print_sources(loaded);
     }
@@ -296,7 +295,7 @@ int run_press(const CommandLine& line) {
       real_time->record.slowest_factor = summary.slowest_real_time_factor;
       real_time->record.whole_factor = summary.real_time_factor;
       real_time->record.step = summary.step.step;
-      real_time->find_force_error(session, response);
+      real_time->record.force_error = error;
       real_time->write(folder);
       told.put("real_time", meshes::json_of<nlohmann::ordered_json>(real_time->record));
     }
@@ -310,7 +309,7 @@ int run_press(const CommandLine& line) {
 }
 
 int run_modes(const CommandLine& line) {
-  LoadedConfig loaded = load_config(line.config);
+  LoadedConfig loaded = at_pace(load_config(line.config));
   // Whatever the press is: nothing moves here, so what only static presses know is welcome.
   loaded.config.press.protocol.mode = meshes::DriveMode::equilibrium;
   loaded.config.press.protocol.contact = meshes::ContactMode::stick;

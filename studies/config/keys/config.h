@@ -224,7 +224,7 @@ struct Config {
   std::vector<double> rotation;                   ///< of the grid about x, y, z in turn [rad]
   int lattice_modes = 10;                         ///< how many natural frequencies
   std::optional<double> spacing_divisor;          ///< a = R/divisor when given so
-  bool automatic_spacing = false;                 ///< such that spacing_tolerance is kept
+  bool automatic_spacing = true;                  ///< such that spacing_tolerance is kept
   double spacing_tolerance = 0.02;                ///< of the force, by lattice::ForceEstimator
   double max_particles = 1e5;                     ///< of an automatic spacing
   std::optional<double> poissons_ratio;           ///< when given so; press.rubber has E and G

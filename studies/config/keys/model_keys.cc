@@ -1,5 +1,4 @@
 /// The keys of [lattice], [reference] and [run].
-#include "calibration/files/words.h"
 #include "studies/config/keys/key_builders.h"
 #include "studies/config/keys/key_sections.h"
 
@@ -138,11 +137,9 @@ std::vector<Key> lattice_keys() {
           "whole, that keeps lattice.tolerance",
           at(&Config::press, &lattice::PressSetup::lattice, &lattice::LatticeSettings::spacing)),
       "at most (tip_radius - rod_radius)/2, of another shape a quarter of its thinnest wall, "
-      "and no more than 20 million masses; where the default is coarser than that, the coarsest "
-      "tip_radius/N that is not",
+      "and no more than 20 million masses",
       {"geometry.tip_radius", "geometry.rod_radius"});
-  const double divisor = meshes::Geometry().tip_radius / lattice::LatticeSettings().spacing;
-  spacing.preset = "\"tip_radius/" + calibration::rounded(divisor, 12) + '"';
+  spacing.preset = "\"auto\"";
   spacing.pattern = "tip_radius/N";
   spacing.word = "auto";
   spacing.assign = assign_spacing;
@@ -174,11 +171,13 @@ std::vector<Key> lattice_keys() {
              "which mass-spring model",
              at(&Config::press, &lattice::PressSetup::lattice, &lattice::LatticeSettings::model)),
       spacing,
-      only_with("lattice.spacing", {"auto"},
-                plain("lattice", "tolerance", {4e-3, 0.5, true},
-                      "what the spacing may put on a force, relative to it, from the first of "
-                      "press.samples on, or from a tenth of the depth",
-                      at(&Config::spacing_tolerance))),
+      only_with(
+          "lattice.spacing", {"auto"},
+          plain("lattice", "tolerance", {4e-3, 0.5, true},
+                "what the spacing may put on a force, relative to it, from the first of "
+                "press.samples on, or from a tenth of the depth; 5 % where live, modes, grasp, "
+                "an FMU or Python's Finger leave it out",
+                at(&Config::spacing_tolerance))),
       only_with("lattice.spacing", {"auto"},
                 plain("lattice", "max_particles", {100, 2e7, true},
                       "no more masses than these unless the finger's walls ask for more; what that "

@@ -235,8 +235,9 @@ FitSetup set_up(const LoadedConfig& loaded, Presses presses,
   if (fit.input.base.lattice.kinematics == lattice::Kinematics::small)
     for (std::size_t i = 0; i < excess.size(); ++i) fit.input.curves[i].finite_excess = excess[i];
   set_budget(loaded, fit);
-  if (lattice_of_fit(loaded) != LatticeUse::none)
-    for (const std::string& note : spacing_notes(loaded)) fit.notes.push_back(note);
+  if (const std::string note = spacing_note(loaded);
+      lattice_of_fit(loaded) != LatticeUse::none && !note.empty())
+    fit.notes.push_back(note);
   fit.input.candidates = candidates_of(
       knows_relaxation(loaded.config.calibration) ? in_equilibrium(fit.loaded) : fit.loaded, fit);
   return fit;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "meshes/base/files.h"
+#include "studies/config/finger_defaults.h"
 #include "studies/config/text/trimmed.h"
 #include "studies/presses/press_setup.h"
 
@@ -53,7 +54,9 @@ LoadedConfig under(const LoadedConfig& loaded, const std::vector<std::string>& c
   check_condition(loaded, condition);
   std::vector<std::string> sets = condition;
   sets.insert(sets.end(), derived.begin(), derived.end());
-  return with_sets(loaded, sets);
+  LoadedConfig own = with_sets(loaded, sets);
+  keep_spacing(own, loaded);  // one lattice for all curves, whatever samples they take
+  return own;
 }
 
 std::string samples_setting(const std::vector<double>& depths) {

@@ -8,6 +8,7 @@
 
 #include "meshes/base/files.h"
 #include "studies/report/figure/drawing.h"
+#include "studies/report/figure/format.h"
 #include "studies/report/page/rendering.h"
 #include "studies/report/page/templates.h"
 
@@ -137,6 +138,13 @@ Cell magnitude_cell(double error, const std::string& note) {
 
 Cell amount_cell(double value, const ShownUnit& unit) {
   return {number(unit(value)), std::isnan(value) ? "" : si_note(value, std::string(unit.si))};
+}
+
+Cell amount_cell(double value, const ShownUnit& unit, double error) {
+  Cell cell = amount_cell(value, unit);
+  if (std::isfinite(error))
+    cell.text = number_with_error(unit(value), unit(error)) + " ± " + number(unit(error), 2);
+  return cell;
 }
 
 std::vector<Cell> heads(std::initializer_list<std::string> titles) {

@@ -46,6 +46,8 @@ Cell error_cell(double error, const std::string& note = "");
 Cell magnitude_cell(double error, const std::string& note = "");
 /// A value in the unit shown, which the column's head names, with SI below; "–" where unknown.
 Cell amount_cell(double value, const ShownUnit& unit);
+/// With " ± error", where that is known.
+Cell amount_cell(double value, const ShownUnit& unit, double error);
 /// A head for each title; what follows a line's end in it is the note.
 std::vector<Cell> heads(std::initializer_list<std::string> titles);
 

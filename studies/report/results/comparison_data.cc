@@ -23,9 +23,10 @@ constexpr std::size_t max_depths = 20;
 CurveForce told_force(const ComparedCurve& curve, double depth) {
   for (const meshes::PressSample& sample : curve.response.pressing())
     if (std::abs(sample.indentation - depth) <= rounding_of_depths * std::abs(depth))
-      return {sample.normal_force, false};
+      return {sample.normal_force, sample.force_error};
   if (!(depth > std::max(0.0, curve.first_depth()) && depth < curve.depth())) return {};
-  return {curve.response.normal_force_at(depth), true};
+  const double force = curve.response.normal_force_at(depth);
+  return {force, std::abs(force) * curve.response.relative_error_at(depth), true};
 }
 
 /// A press with a fit that was not accepted tells so in its warnings.
@@ -161,7 +162,8 @@ void compare_following(Comparison& comparison) {
     for (std::size_t c = 0; c < all.size(); ++c) {
       ComparedForce& cell = row.forces.emplace_back();
       if (!takes_part[c]) continue;
-      cell.force.value = all[c].response.following()[i].normal_force;
+      const meshes::PressSample& sample = all[c].response.following()[i];
+      cell.force = {sample.normal_force, sample.force_error};
       // Where hardly a force is left, differences are those of noise.
       constexpr double left = 1e-3;
       if (std::abs(wanted.normal_force) > left * largest)

@@ -32,6 +32,7 @@ struct ComparedCurve {
 /// A force of a curve and where it comes from.
 struct CurveForce {
   double value = meshes::unknown;  ///< [N]; NaN outside the curve's samples
+  double error = meshes::unknown;  ///< estimated size [N]; NaN where none is told
   bool interpolated = false;
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -283,14 +284,41 @@ TEST(ContinuumPress, FieldsAreWrittenForParaView) {
   EXPECT_NE(text.find("</VTKFile>"), std::string::npos);
 }
 
+using fem_reference::PushedNodes;
+
+/// Rings `spacing` apart up to `edge`.
+PushedNodes rings(double spacing, double edge, const std::function<double(double)>& pressure) {
+  PushedNodes contact{.meridian = true, .spacing = spacing};
+  for (int i = 0; i * spacing < edge; ++i) {
+    const double r = i * spacing,
+                 area = 2.0 * std::numbers::pi * std::max(r, spacing / 8) * spacing;
+    contact.nodes.push_back({{r, 0.0}, pressure(r), pressure(r) * area, area});
+  }
+  return contact;
+}
+
+/// Hertz's pressure over an ellipse, on squares of a grid, of which sectors are left.
+PushedNodes ellipse(double a, double b, const Eigen::Vector2d& centre, double spacing,
+                    int sectors) {
+  PushedNodes contact{.sectors = sectors, .spacing = spacing};
+  const int most = int((centre.norm() + std::max(a, b)) / spacing) + 1;
+  for (int i = sectors > 2 ? 0 : -most; i <= most; ++i)
+    for (int j = sectors > 1 ? 0 : -most; j <= most; ++j) {
+      const Eigen::Vector2d at = spacing * Eigen::Vector2d(i + 0.5, j + 0.5), d = at - centre;
+      const double s = std::pow(d.x() / a, 2) + std::pow(d.y() / b, 2);
+      if (s >= 1.0) continue;
+      const double p = std::sqrt(1.0 - s), area = spacing * spacing;
+      contact.nodes.push_back({at, p, p * area, area});
+    }
+  return contact;
+}
+
 /// Hertz's pressure on nodes of a regular grid, whose outermost node misses the edge.
 TEST(ContactEdge, FindsTheEdgeBetweenNodes) {
   for (const double edge : {0.985, 1.0, 1.013}) {
-    std::vector<ContactPoint> contact;
-    const double spacing = 0.03;
-    for (int i = 0; i * spacing < edge; ++i)
-      contact.push_back({i * spacing, std::sqrt(1 - std::pow(i * spacing / edge, 2))});
-    EXPECT_NEAR(fem_reference::contact_edge(contact, spacing, 4), edge, 1e-6);
+    const PushedNodes contact =
+        rings(0.03, edge, [&](double r) { return std::sqrt(1 - std::pow(r / edge, 2)); });
+    EXPECT_NEAR(fem_reference::contact_radius(contact), edge, 1e-6);
   }
 }
 
@@ -298,28 +326,43 @@ TEST(ContactEdge, FindsTheEdgeBetweenNodes) {
 TEST(ContactEdge, IsMetUnderAPeakedPressure) {
   constexpr std::array<double, 8> at = {0.0, 0.25, 0.5, 0.75, 0.9, 0.95, 0.98, 1.0};
   constexpr std::array<double, 8> pressure = {1.0, 0.910, 0.706, 0.464, 0.286, 0.204, 0.135, 0.0};
-  constexpr double spacing = 0.0123;
-  std::vector<ContactPoint> contact;
-  for (std::size_t i = 0; double(i) * spacing < 1.0; ++i) {
-    const double r = double(i) * spacing;
+  const PushedNodes contact = rings(0.0123, 1.0, [&](double r) {
     const std::size_t k = std::size_t(std::upper_bound(at.begin(), at.end(), r) - at.begin());
     const double share = (r * r - at[k - 1] * at[k - 1]) / (at[k] * at[k] - at[k - 1] * at[k - 1]);
-    contact.push_back({r, std::sqrt((1.0 - share) * std::pow(pressure[k - 1], 2) +
-                                    share * std::pow(pressure[k], 2))});
-  }
-  EXPECT_NEAR(fem_reference::contact_edge(contact, 3.0 * spacing, 4), 1.0, 0.008);
+    return std::sqrt((1.0 - share) * std::pow(pressure[k - 1], 2) +
+                     share * std::pow(pressure[k], 2));
+  });
+  EXPECT_NEAR(fem_reference::contact_radius(contact), 1.0, 0.008);
 }
 
-TEST(ContactEdge, IsNearTheOutermostNodeWhateverThePressure) {
-  EXPECT_EQ(fem_reference::contact_edge({}, 0.1, 4), 0.0);
-  EXPECT_EQ(fem_reference::contact_edge({{0.0, 1.0}}, 0.1, 4), 0.0);
-  std::vector<ContactPoint> rising, flat;
-  for (int i = 0; i <= 30; ++i) {
-    rising.push_back({0.01 * i, 1.0 + i});
-    flat.push_back({0.01 * i, 1.0});
-  }
-  for (const auto& contact : {rising, flat})
-    EXPECT_NEAR(fem_reference::contact_edge(contact, 0.01, 4), 0.3, 0.01 * (1 + 1e-9));
+/// Round or not, in the middle or beside it, whole or in part.
+TEST(ContactEdge, IsOneForContactsOfAnyShapeAndPlace) {
+  for (const double b : {1.0, 0.999, 0.7})
+    for (const int sectors : {1, 2, 4})
+      for (const double x : {0.0, 1e-3, 0.13}) {
+        if (sectors == 4 && x > 0.0) continue;
+        const PushedNodes contact = ellipse(1.0, b, {x, 0.0}, 0.03, sectors);
+        EXPECT_NEAR(fem_reference::contact_radius(contact) / std::sqrt(b), 1.0, 2e-3)
+            << b << ' ' << sectors << ' ' << x;
+      }
+}
+
+/// What is no ellipse has the area of its nodes, to a spacing.
+TEST(ContactEdge, IsThatOfTheAreaWhateverThePressure) {
+  EXPECT_EQ(fem_reference::contact_radius({}), 0.0);
+  for (const auto& pressure : std::vector<std::function<double(double)>>{
+           [](double r) { return 1.0 + 100.0 * r; }, [](double) { return 1.0; }})
+    EXPECT_NEAR(fem_reference::contact_radius(rings(0.01, 0.305, pressure)), 0.305, 0.0101);
+  PushedNodes two = ellipse(0.3, 0.3, {1.0, 0.0}, 0.02, 1);
+  const PushedNodes other = ellipse(0.3, 0.3, {-1.0, 0.0}, 0.02, 1);
+  two.nodes.insert(two.nodes.end(), other.nodes.begin(), other.nodes.end());
+  double area = 0.0;
+  for (const auto& node : two.nodes) area += node.area;
+  EXPECT_NEAR(area, 2.0 * std::numbers::pi * 0.09, 0.01);
+  EXPECT_NEAR(fem_reference::contact_radius(two), std::sqrt(area / std::numbers::pi), 0.0201);
+  PushedNodes line{.spacing = 0.1};
+  for (int i = 0; i < 30; ++i) line.nodes.push_back({{0.1 * i, 0.0}, 1.0, 0.01, 0.01});
+  EXPECT_NEAR(fem_reference::contact_radius(line), std::sqrt(0.3 / std::numbers::pi), 1e-12);
 }
 
 }  // namespace

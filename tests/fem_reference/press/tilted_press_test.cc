@@ -29,7 +29,7 @@ TEST(TiltedPress, UprightHalfEqualsQuarter) {
     EXPECT_NEAR(half.max_pressure / quarter.max_pressure, 1.0, 1e-6);
     EXPECT_NEAR(half.lateral_force_x / half.normal_force, 0.0, 1e-7);
     EXPECT_NEAR(half.torque_y / half.normal_force, 0.0, 1e-9);
-    EXPECT_NEAR(half.contact_radius, quarter.contact_radius, quarter.node_spacing);
+    EXPECT_NEAR(half.contact_radius / quarter.contact_radius, 1.0, 5e-3);
   }
 }
 

@@ -147,16 +147,16 @@ TEST(ForceEstimate, FallsWithTheSpacingAtAnOrderBetweenTwoAndThree) {
     EXPECT_EQ(estimate.model, 0.0);
     EXPECT_EQ(estimate.motion, 0.0);
     if (last > 0.0) {
-      EXPECT_GT(last / (estimate.grid - ties), 4.0);
-      EXPECT_LT(last / (estimate.grid - ties), 8.0);
+      EXPECT_GT(last / (estimate.grid() - ties), 4.0);
+      EXPECT_LT(last / (estimate.grid() - ties), 8.0);
     }
-    last = estimate.grid - ties;
+    last = estimate.grid() - ties;
   }
   // A wider contact is better known, and never is the force off by more than half of it.
-  EXPECT_LT(estimate_of(setup, 1e-3, 4e-3).grid - ties, last);
+  EXPECT_LT(estimate_of(setup, 1e-3, 4e-3).grid() - ties, last);
   setup.lattice.spacing = 2.5e-3;
-  EXPECT_GE(estimate_of(setup, 1e-6, 1e-3).grid, 0.5);
-  EXPECT_LE(estimate_of(setup, 1e-6, 1e-3).grid, 0.5);
+  EXPECT_GE(estimate_of(setup, 1e-6, 1e-3).grid(), 0.5);
+  EXPECT_LE(estimate_of(setup, 1e-6, 1e-3).grid(), 0.5);
 }
 
 TEST(ForceEstimate, OfCentralSpringsKnowsThatTheirPoissonsRatioIsAQuarter) {
@@ -203,5 +203,5 @@ TEST(ForceEstimate, IsNoneOfPublishedSpringsAndOfNoContact) {
   EXPECT_FALSE(has_one({}));
   setup.lattice.model = ModelKind::published;
   EXPECT_FALSE(has_one(touching(1e-3, 3e-3)));
-  EXPECT_FALSE(lattice::ForceEstimator(setup).spacing_for(1e-3, 0.02));
+  EXPECT_FALSE(lattice::ForceEstimator(setup).at(1e-3));
 }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
+#include <utility>
 
 #include "meshes/base/errors.h"
 #include "tests/expectations.h"
@@ -59,7 +61,7 @@ TEST_F(PressResponseFile, FirstLineNamesEveryColumnWithItsUnit) {
   const std::string common =
       "indentation [m],normal_force [N],lateral_force_x [N],lateral_force_y [N],"
       "torque_x [N m],torque_y [N m],torque_z [N m],contact_radius [m],max_pressure [Pa],"
-      "force_error [N],time [s]";
+      "force_error [N],time [s],contact_area [m^2],mean_pressure [Pa]";
   PressResponse response;
   for (const double lateral : {0.0, -1e-4}) {
     response.append({.indentation = 1e-3, .normal_force = 1.0, .lateral_displacement = lateral});
@@ -150,6 +152,50 @@ TEST_F(PressResponseFile, RefusesDamagedFilesWithFileAndLine) {
 TEST_F(PressResponseFile, AnUnwritableFolderIsNamed) {
   EXPECT_TRUE(refuses<std::runtime_error>(
       [&] { PressResponse().write_csv(folder_ / "absent" / "response.csv"); }, "absent"));
+}
+
+TEST(PressResponse, ItsErrorBetweenSamplesIsTheLargerOneOfBothSides) {
+  EXPECT_TRUE(std::isnan(power_law(2.0, 1.5, 4, 2e-3).relative_error_at(1e-3)));
+  PressResponse response;
+  for (const auto& [depth, error] :
+       {std::pair(1e-3, unknown), std::pair(2e-3, 0.2), std::pair(3e-3, 0.1), std::pair(4e-3, 0.3)})
+    response.append({.indentation = depth, .normal_force = 2.0, .force_error = error});
+  EXPECT_EQ(response.relative_error_at(0.5e-3), 0.1);
+  EXPECT_EQ(response.relative_error_at(2.5e-3), 0.1);
+  EXPECT_EQ(response.relative_error_at(3e-3), 0.05);
+  EXPECT_EQ(response.relative_error_at(3.5e-3), 0.15);
+  EXPECT_EQ(response.relative_error_at(9e-3), 0.15);
+}
+
+TEST(PressResponse, AContactHasTheAreaOfItsCircle) {
+  PressSample sample{.indentation = 1e-3, .normal_force = 2.0};
+  sample.set_contact(3e-3, 5e4);
+  EXPECT_EQ(sample.contact_radius, 3e-3);
+  EXPECT_NEAR(sample.contact_area, std::numbers::pi * 9e-6, 1e-18);
+  EXPECT_NEAR(sample.mean_pressure * sample.contact_area, 2.0, 1e-15);
+  EXPECT_EQ(sample.max_pressure, 5e4);
+  sample.set_contact(0.0, 0.0);
+  EXPECT_EQ(sample.mean_pressure, 0.0);
+}
+
+/// A force of 3 N, 4 N of it aside, and its moment; nothing aside of what a symmetry leaves.
+TEST(PressResponse, ErrorsAreThoseOfAForceAndItsPlace) {
+  PressSample sample{.normal_force = 3.0,
+                     .lateral_force_x = 0.0,
+                     .lateral_force_y = -4.0,
+                     .torque_x = 0.02,
+                     .torque_y = 0.0,
+                     .torque_z = 0.0,
+                     .contact_radius = 1e-3};
+  sample.set_errors(0.1);
+  EXPECT_NEAR(sample.force_error, 0.3, 1e-15);
+  EXPECT_NEAR(sample.lateral_force_error, 0.1 * (4.0 + 3.0 / 8.0), 1e-15);
+  EXPECT_NEAR(sample.torque_error, 0.1 * (0.02 + 0.007), 1e-15);
+  sample.lateral_force_y = 1e-10;
+  sample.torque_x = 1e-13;
+  sample.set_errors(0.1);
+  EXPECT_TRUE(std::isnan(sample.lateral_force_error));
+  EXPECT_TRUE(std::isnan(sample.torque_error));
 }
 
 TEST(PressResponse, InterpolationPassesThroughSamplesAndOrigin) {

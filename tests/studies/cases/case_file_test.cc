@@ -79,7 +79,8 @@ TEST(Cases, RefusesCriteriaThatCannotBeJudged) {
 
 TEST(Cases, WithoutRunsTakeThoseOfTheCoreCase) {
   const TemporaryFolder folder;
-  write_text(folder / "mine.toml", "[press]\ndepth = \"0.2 cm\"\n");
+  write_text(folder / "mine.toml",
+             "[press]\ndepth = \"0.2 cm\"\n[lattice]\nspacing = \"tip_radius/12\"\n");
   const Case core = load_case(find_case("01"), {}), mine = load_case(folder / "mine.toml", {});
   ASSERT_FALSE(core.runs.empty());
   EXPECT_EQ(planned_jobs(mine).size(), planned_jobs(core).size());

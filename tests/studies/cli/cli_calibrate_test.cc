@@ -287,8 +287,9 @@ TEST_F(Calibrate, PoissonsRatioStaysInItsRangeAndTheFitIsNotAccepted) {
 
 /// The best seen so far is told, and what to do.
 TEST_F(Calibrate, ASearchThatEndsEarlyTellsWhatItHas) {
-  write_measured("frictionless", "a.csv");
-  const ProgramResult run = fit("fit", {of_files("\"a.csv\""), "calibration.evaluations=1"}, 3);
+  write_both();
+  const ProgramResult run =
+      fit("fit", {of_files("\"a.csv\",\"b.csv\""), "calibration.evaluations=1"}, 3);
   EXPECT_TRUE(says(run.out, "youngs_modulus"));
   EXPECT_TRUE(says(run.err, {"did not end within", "calibration.evaluations"}));
   EXPECT_EQ(found("fit")["converged"], false);

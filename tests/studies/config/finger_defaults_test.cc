@@ -21,8 +21,7 @@ LoadedConfig automatic(Sets sets) {
 }
 
 std::string note_of(const LoadedConfig& loaded) {
-  const auto notes = spacing_notes(loaded);
-  return notes.empty() ? "" : notes.front();
+  return spacing_note(loaded);
 }
 
 }  // namespace
@@ -30,8 +29,7 @@ std::string note_of(const LoadedConfig& loaded) {
 TEST(AutomaticSpacing, IsTheCoarsestThatKeepsTheTolerance) {
   for (const Sets& sets : {Sets{}, Sets{"press.samples=[\"0.5 mm\", \"2 mm\"]"},
                            Sets{"obstacle.shape=sphere", "obstacle.radius=8 mm"},
-                           Sets{"lattice.tolerance=0.05", "lattice.model=network"},
-                           Sets{"press.samples=[\"2 mm\"]", "lattice.model=central"}}) {
+                           Sets{"lattice.tolerance=0.05", "lattice.model=network"}}) {
     const LoadedConfig loaded = automatic(sets);
     const lattice::PressSetup& press = loaded.config.press;
     const bool asked = loaded.entries.at("press.samples").given;
@@ -40,10 +38,10 @@ TEST(AutomaticSpacing, IsTheCoarsestThatKeepsTheTolerance) {
                  divisor = loaded.config.spacing_divisor.value();
     EXPECT_EQ(divisor, std::round(divisor));
     EXPECT_DOUBLE_EQ(press.lattice.spacing, press.geometry.tip_radius / divisor);
-    EXPECT_LE(lattice::ForceEstimator(press).grid(depth).value(), tolerance);
+    EXPECT_LE(lattice::ForceEstimator(press).at(depth)->grid(), tolerance);
     lattice::PressSetup coarser = press;
     coarser.lattice.spacing = press.geometry.tip_radius / (divisor - 1.0);
-    EXPECT_GT(lattice::ForceEstimator(coarser).grid(depth).value(), tolerance);
+    EXPECT_GT(lattice::ForceEstimator(coarser).at(depth)->grid(), tolerance);
     EXPECT_TRUE(says(note_of(loaded), {"lattice.spacing = \"auto\"", "tip_radius/", "wanted"}))
         << note_of(loaded);
   }
@@ -80,8 +78,34 @@ TEST(AutomaticSpacing, NeverMakesAFingerRefuse) {
   EXPECT_TRUE(says(note_of(thin), {"more than lattice.max_particles = 100", "walls"}))
       << note_of(thin);
   const LoadedConfig published = automatic({"lattice.model=published", "geometry.tip_radius=2 cm"});
-  EXPECT_EQ(published.config.spacing_divisor, 12.0);
-  EXPECT_TRUE(says(note_of(published), {"published model has no estimate"})) << note_of(published);
+  EXPECT_EQ(published.config.spacing_divisor,
+            automatic({"geometry.tip_radius=2 cm"}).config.spacing_divisor);
+  EXPECT_TRUE(says(note_of(published), {"of a hookean lattice", "published springs"}))
+      << note_of(published);
+}
+
+TEST(AutomaticSpacing, IsOneForAllModels) {
+  const auto divisor = [](const std::string& model) {
+    return automatic({"lattice.model=" + model}).config.spacing_divisor;
+  };
+  for (const char* model : {"published", "central", "network"})
+    EXPECT_EQ(divisor(model), divisor("hookean")) << model;
+}
+
+/// Of another press, but for walls that ask for more.
+TEST(AutomaticSpacing, CanBeKept) {
+  const LoadedConfig base = automatic({});
+  LoadedConfig shallow = automatic({"press.samples=[\"0.1 mm\"]"});
+  ASSERT_GT(shallow.config.spacing_divisor, base.config.spacing_divisor);
+  keep_spacing(shallow, base);
+  EXPECT_EQ(shallow.config.press.lattice.spacing, base.config.press.lattice.spacing);
+  LoadedConfig thin = automatic({"geometry.rod_radius=9.4 mm"});
+  keep_spacing(thin, base);
+  EXPECT_TRUE(thin.config.press.lattice.spacing <= thin.config.press.geometry.coarsest_spacing());
+  EXPECT_EQ(thin.config.spacing_divisor, 34.0);
+  LoadedConfig given = config_of({"lattice.spacing=tip_radius/9"});
+  keep_spacing(given, base);
+  EXPECT_EQ(given.config.spacing_divisor, 9.0);
 }
 
 /// parameters.toml gives every key.

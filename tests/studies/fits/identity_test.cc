@@ -254,12 +254,12 @@ const World worlds[] = {
      nowhere + no_continuum + no_fit + no_grasp + no_modes + no_rod + no_time + no_friction +
          relaxation + Sets{"rubber.density", "rubber.retardation_time"}},
     {"lattice's modes",
-     {"press.mode=static"},
+     {"press.mode=static", "lattice.spacing=tip_radius/12"},
      lattice_modes,
      nowhere + no_continuum + no_fit + no_grasp + no_rod + no_time + relaxation +
          split("press. obstacle. rubber.retardation_time")},
     {"grasp",
-     {},
+     {"lattice.spacing=tip_radius/12"},
      grasp,
      nowhere + diagonal + no_continuum + no_fit + no_modes + no_rod + controllers +
          // The rods are driven as the grip says; it takes symplectic Euler alone.
@@ -288,7 +288,7 @@ const World worlds[] = {
          split("lattice. press. obstacle. rubber.retardation_time rubber.relaxation "
                "rubber.relaxation_bulk reference.field_sectors reference.law")},
     {"fit to moduli",
-     {"calibration.problem=moduli", "lattice.model=central"},
+     {"calibration.problem=moduli", "lattice.model=central", "lattice.spacing=tip_radius/12"},
      calibration,
      nowhere + no_continuum + no_grasp + no_modes + no_rod + no_time + follow_up +
          split("press. obstacle. geometry.rod_radius geometry.sleeve_length geometry.rod_length "

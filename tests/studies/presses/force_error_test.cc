@@ -63,6 +63,29 @@ TEST(ForceError, OfALateralMotionIsToldWhereBothHaveMovedAsFar) {
   EXPECT_NEAR(samples[2].force_error, 0.2 + 0.03, 1e-12);
 }
 
+TEST(ForceError, OfWhatPullsAsideIsAVectors) {
+  const auto tilted = [](double aside, double moment, double error = std::nan("")) {
+    PressSample result = sample(1e-3, 2.0, error);
+    result.lateral_force_x = aside;
+    result.lateral_force_y = 0.0;
+    result.torque_x = result.torque_z = 0.0;
+    result.torque_y = moment;
+    result.contact_radius = 1e-3;
+    return result;
+  };
+  const PressResponse continuum({tilted(0.4, 0.05, 0.02)}), lattice({tilted(0.3, 0.06)});
+  const PressSample found = with_force_error(lattice, continuum).samples().front();
+  EXPECT_NEAR(found.force_error, 0.02, 1e-12);
+  EXPECT_NEAR(found.lateral_force_error, 0.1 + 0.01 * (0.3 + 2.0 / 8.0), 1e-12);
+  EXPECT_NEAR(found.torque_error, 0.01 + 0.01 * (0.06 + 1e-3 * 2.3), 1e-12);
+  // Of no force there is no share.
+  PressSample nothing = tilted(0.4, 0.05, 0.02);
+  nothing.normal_force = 0.0;
+  const PressSample unknown = with_force_error(lattice, PressResponse({nothing})).samples().front();
+  EXPECT_TRUE(std::isnan(unknown.lateral_force_error));
+  EXPECT_TRUE(std::isnan(unknown.torque_error));
+}
+
 TEST(ForceError, IsFromTheContinuumWhereThatTakesSeconds) {
   const ErrorSource small = source_of({});
   ASSERT_TRUE(small.continuum);

@@ -75,6 +75,18 @@ TEST(PressSetup, EquilibriumThatDoesNotFitIsRefusedWithASpacingThatWould) {
                              "choose a coarser lattice, at most tip_radius/"}));
 }
 
+/// What nobody gave is coarser; what somebody gave stays.
+TEST(PressSetup, AtPaceASpacingKeepsFivePerCent) {
+  const LoadedConfig usual = config_of(), paced = at_pace(usual);
+  EXPECT_EQ(paced.config.spacing_tolerance, 0.05);
+  EXPECT_EQ(paced.config.press.lattice.spacing,
+            config_of({"lattice.tolerance=0.05"}).config.press.lattice.spacing);
+  EXPECT_GT(paced.config.press.lattice.spacing, usual.config.press.lattice.spacing);
+  for (const char* given : {"lattice.tolerance=0.02", "lattice.spacing=tip_radius/17"})
+    EXPECT_EQ(at_pace(config_of({given})).config.press.lattice.spacing,
+              config_of({given}).config.press.lattice.spacing);
+}
+
 TEST(PressSetup, ARodThatNobodyGaveIsHeavyEnough) {
   const TemporaryFolder folder;
   write_text(
@@ -87,7 +99,7 @@ TEST(PressSetup, ARodThatNobodyGaveIsHeavyEnough) {
     const LoadedConfig complete = with_material(config_of(sets), LatticeUse::press);
     const auto setup = press_setup(complete);
     EXPECT_GT(setup.rod.density, 2700.0);
-    EXPECT_EQ(complete.notes.size(), 1U);
+    EXPECT_TRUE(says(complete.notes.back(), "rod.density"));
     write_text(folder / "again.toml", parameters_toml(complete, "again"));
     EXPECT_EQ(load_config({folder / "again.toml", {}, {}}).config.press.rod.density,
               setup.rod.density);
@@ -208,7 +220,8 @@ TEST(MaterialOfAPress, WhatTheUserSaysIsKeptAndWarnedOf) {
   const lattice::PressSetup press = setup_of(with(sets, "rubber.density=1 g/cm^3"));
   EXPECT_EQ(press.rubber.density, 1000.0);
   EXPECT_EQ(setup_of(with(sets, "rubber.youngs_modulus=3900 Pa")).rubber.youngs_modulus, 5000.0);
-  EXPECT_TRUE(notes({"press.mode=static"}).empty()) << "no file, nothing to warn of";
+  EXPECT_TRUE(notes({"press.mode=static", "lattice.spacing=tip_radius/12"}).empty())
+      << "no file, nothing to warn of";
 }
 
 /// Exports and `reference` press the continuum of the same rubber, whatever moduli stand beside it.
@@ -411,7 +424,8 @@ TEST(Jobs, TheLateralPathMattersWhereThereIsLateralMotion) {
 }
 
 TEST(Jobs, ModesDependOnTheLatticeAndNotOnThePress) {
-  expect_same(modes_key, {"press.depth=0.1 cm", "press.contact=frictionless"});
+  expect_same(modes_key, {"press.depth=0.1 cm", "press.contact=frictionless"},
+              {"lattice.spacing=tip_radius/12"});
   expect_other(modes_key, {"rubber.density=1 g/cm^3", "lattice.spacing=0.1 cm",
                            "lattice.ligament_stiffness=2", "rubber.shear_modulus=15 gf/cm^2"});
   EXPECT_NE(modes_key({}), modes_job(setup_of({"press.mode=static"}), 11).key());

@@ -39,6 +39,31 @@ std::vector<std::vector<std::string>> cells(const std::string& csv) {
   return rows;
 }
 
+/// At samples their own; between them the larger share of both sides.
+TEST(Comparison, TellsForcesWithTheirErrors) {
+  TemporaryFolder folder;
+  report_testing::write_file(folder.path() / "a/response.csv",
+                             "indentation [m],normal_force [N],force_error [N]\n"
+                             "0.001,2,0.02\n0.002,4,0.08\n0.003,6,0.06\n");
+  report_testing::write_file(folder.path() / "b/response.csv",
+                             "indentation [m],normal_force [N],force_error [N]\n"
+                             "0.001,2.2,\n0.0015,3.3,0.33\n0.003,6.6,0.33\n");
+  studies::report::write_comparison({folder.path() / "a", folder.path() / "b"},
+                                    folder.path() / "out");
+  const auto rows = cells(read_text(folder.path() / "out" / "comparison.csv"));
+  ASSERT_EQ(rows[0].size(), 7U);
+  EXPECT_EQ(rows[0][5], "a force_error [N]");
+  EXPECT_EQ(rows[0][6], "b force_error [N]");
+  ASSERT_GE(rows.size(), 3U);
+  EXPECT_EQ(std::stod(rows[1][5]), 0.02);
+  EXPECT_EQ(rows[1][6], "");
+  EXPECT_EQ(std::stod(rows.back()[5]), 0.06);
+  EXPECT_EQ(std::stod(rows.back()[6]), 0.33);
+  EXPECT_TRUE(
+      says(report_testing::visible_text(read_text(folder.path() / "out/comparison.html")), "± 330"))
+      << report_testing::visible_text(read_text(folder.path() / "out/comparison.html"));
+}
+
 TEST(Comparison, GivesDifferencesRelativeToTheFirstRun) {
   TemporaryFolder folder;
   write_line(folder.path() / "soft", 1.0, 0.002);
@@ -273,7 +298,7 @@ TEST(Comparison, TakesAValidateRunApartWithTheContinuumFirst) {
   const auto rows = cells(read_text(folder.path() / "out" / "comparison.csv"));
   EXPECT_EQ(rows[0][1], "run/reference normal_force [N]");
   ASSERT_GE(rows[0].size(), 3U);
-  const std::size_t last = rows[0].size() - 2;
+  const std::size_t last = rows[0].size() - 2 - 4;  // before the errors
   EXPECT_EQ(rows[0][last], "run/hookean relative_difference");
   EXPECT_NEAR(std::stod(rows.back()[last]), 0.02, 1e-9);
 }

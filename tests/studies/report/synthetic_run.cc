@@ -41,16 +41,17 @@ void write_response(const fs::path& file, double factor, bool reference) {
   std::string text =
       "indentation [m],normal_force [N],lateral_force_x [N],lateral_force_y [N],torque_x [N "
       "m],torque_y [N m],"
-      "torque_z [N m],contact_radius [m],max_pressure [Pa],force_error [N],time [s]\n";
+      "torque_z [N m],contact_radius [m],max_pressure [Pa],force_error [N],time [s],"
+      "contact_area [m^2],mean_pressure [Pa]\n";
   for (int i = 1; i <= 30; ++i) {
     const double d = depth * i / 30.0, f = factor * continuum_force(d);
     // A point contact misses the first layer and then jumps.
     const double stair =
         reference ? 1.0 : 1.0 + 0.15 * std::sin(d / spacing * 6.283) * spacing / (d + spacing);
     text += reference
-                ? fmt::format("{},{},0,0,0,0,0,{},{},{},\n", d, f, std::sqrt(1.1 * d * radius),
+                ? fmt::format("{},{},0,0,0,0,0,{},{},{},,,\n", d, f, std::sqrt(1.1 * d * radius),
                               1.5e6 * d, (i == 10 ? 0.0045 : 0.003) * f)
-                : fmt::format("{},{},0,0,0,0,0,,,,{}\n", d, i == 30 ? f : f * stair,
+                : fmt::format("{},{},0,0,0,0,0,,,,{},,\n", d, i == 30 ? f : f * stair,
                               (d + clearance) / 0.01);
   }
   write_file(file, text);

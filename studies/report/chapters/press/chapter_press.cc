@@ -78,22 +78,19 @@ Range error_axis(const RunData& run, const std::vector<Series>& curves) {
 
 Table response_table(const RunData& run) {
   const ShownUnits& units = shown_units();
-  Table table{heads({"Indentation\n" + unit_name(units.length), "Continuum\n± estimated error",
+  Table table{heads({"Indentation\n" + unit_name(units.length), "Continuum",
                      "Contact radius\n" + unit_name(units.length),
                      "Peak pressure\n" + unit_name(units.stress)})};
   for (const ModelData& model : run.models) table.header.emplace_back(model_label(model.name));
   for (const double depth : run.depths) {
     const auto cell = [&](const meshes::PressResponse& response) {
-      return amount_cell(force_at(response, depth), units.force);
+      const double force = force_at(response, depth);
+      return amount_cell(force, units.force, std::abs(force) * response.relative_error_at(depth));
     };
     std::vector<Cell> row{fmt::format("{:.4g}", units.length(depth)), cell(run.reference), "–",
                           "–"};
     for (const meshes::PressSample& sample : run.reference.pressing()) {
       if (std::abs(sample.indentation - depth) > 1e-9) continue;
-      const double force = units.force(sample.normal_force),
-                   error = units.force(sample.force_error);
-      if (std::isfinite(error))
-        row[1].text = number_with_error(force, error) + " ± " + number(error, 2);
       row[2] = amount_cell(sample.contact_radius, units.length);
       row[3] = amount_cell(sample.max_pressure, units.stress);
     }

@@ -1,6 +1,8 @@
 /// A press that was to keep up with time: what was chosen on that machine, and what it costs.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 
@@ -12,17 +14,6 @@ Table trial_table(const RealTimeRecord& record) {
   for (const PaceTrialEntry& trial : record.trials)
     table.rows.push_back({shown_units().length.text(trial.spacing), with_prefix(trial.step, "s"),
                           count(double(trial.threads)), number(trial.real_time_factor, 3)});
-  return table;
-}
-
-Table error_table(const TransferObstacleEntry& errors) {
-  Table table{{"Force error"}, true};
-  for (const double depth : errors.indentation)
-    table.header.emplace_back(shown_units().length.text(depth));
-  for (const TransferModelEntry& model : errors.models) {
-    table.rows.push_back({model.model});
-    for (const double error : model.error) table.rows.back().push_back(error_cell(error));
-  }
   return table;
 }
 
@@ -41,10 +32,13 @@ Chapter real_time_chapter(const RealTimeRecord& record) {
   chapter["tried"] = record.tried;
   chapter["slowest"] = number(record.slowest_factor, 3);
   chapter["whole"] = number(record.whole_factor, 3);
-  chapter["errors"] = record.force_error_of;
   chapter.tables["trials"] = trial_table(record);
-  chapter["unknown_errors"] = !record.force_error;
-  if (record.force_error) chapter.tables["errors"] = error_table(*record.force_error);
+  const ForceErrorEntry error = record.force_error.value_or(ForceErrorEntry());
+  chapter["error"] = error.statement;
+  chapter["largest"] =
+      std::isnan(error.largest)
+          ? ""
+          : fmt::format("{:.2g} % at {}", 100.0 * error.largest, length(error.indentation));
   return written(std::move(chapter));
 }
 

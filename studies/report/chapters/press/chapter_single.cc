@@ -170,13 +170,17 @@ Table sample_table(SampleRange samples, const SampleColumn& over) {
       normal_force(),
       {"Estimated error", &Sample::force_error, units.force},
       {"Lateral force", &Sample::lateral_force_x, units.force, "along t1, "},
+      {"Estimated error", &Sample::lateral_force_error, units.force, "of the lateral force, "},
       {"Contact radius", &Sample::contact_radius, units.length},
+      {"Mean pressure", &Sample::mean_pressure, units.stress},
       {"Peak pressure", &Sample::max_pressure, units.stress}};
   Table table{{{over.title, unit_name(over.unit)}}};
   for (const Sample& sample : samples)
     table.rows.push_back({fmt::format("{:.4g}", over.unit(sample.*over.value))});
   for (const SampleColumn& column : columns) {
-    if (column.value == &Sample::lateral_force_x && !lateral) continue;
+    const bool aside =
+        column.value == &Sample::lateral_force_x || column.value == &Sample::lateral_force_error;
+    if (aside && !lateral) continue;
     table.header.emplace_back(column.title, column.direction + unit_name(column.unit));
     for (std::size_t i = 0; i < samples.size(); ++i)
       table.rows[i].push_back(amount_cell(samples[i].*column.value, column.unit));

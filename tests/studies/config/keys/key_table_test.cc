@@ -91,7 +91,7 @@ TEST(KeyTable, HasTheContractsKeysWithItsDefaults) {
       {"rubber.retardation_time", "\"0.3 ms\""},
       {"rod.density", "\"2.7 g/cm^3\""},
       {"lattice.model", "\"hookean\""},
-      {"lattice.spacing", "\"tip_radius/12\""},
+      {"lattice.spacing", "\"auto\""},
       {"lattice.constants", "\"auto\""},
       {"lattice.ligament_stiffness", "1.0"},
       {"press.mode", "\"pid\""},

@@ -96,7 +96,8 @@ TEST(ProfileFile, MakesTheFingerOfAConfiguration) {
   const TemporaryFolder folder;
   write_text(folder / "finger.csv", solid_finger);
   write_text(folder / "case.toml",
-             "[geometry]\nshape = \"profile\"\nprofile = \"finger.csv\"\nendpoint = \"-1 mm\"\n");
+             "[geometry]\nshape = \"profile\"\nprofile = \"finger.csv\"\nendpoint = \"-1 mm\"\n"
+             "[lattice]\nspacing = \"tip_radius/12\"\n");
   const Config config = config_in(folder / "case.toml").config;
   EXPECT_NEAR(config.press.geometry.tip_radius, 0.0125, 1e-15);
   EXPECT_NEAR(config.press.geometry.rod_endpoint().z(), -0.001, 1e-15);

@@ -65,7 +65,8 @@ TEST(SolidFile, ReadsBothFormsOfStl) {
 TEST(SolidFile, MakesTheFingerOfAConfiguration) {
   const TemporaryFolder folder;
   write_text(folder / "finger.stl", stl_text(finger()));
-  write_text(folder / "case.toml", with(settings, "shape", "endpoint = \"-2 mm\"\nshape"));
+  write_text(folder / "case.toml", with(settings, "shape", "endpoint = \"-2 mm\"\nshape") +
+                                       "\n[lattice]\nspacing = \"tip_radius/12\"\n");
   const LoadedConfig finger_case = config_in(folder / "case.toml");
   const meshes::Geometry& geometry = finger_case.config.press.geometry;
   ASSERT_TRUE(geometry.solid);

@@ -232,9 +232,9 @@ TEST(ControlReport, AComparisonOfPressesInTimeShowsThemUnderControl) {
     std::string response =
         "indentation [m],normal_force [N],lateral_force_x [N],lateral_force_y [N],torque_x [N m],"
         "torque_y [N m],torque_z [N m],contact_radius [m],max_pressure [Pa],force_error [N],"
-        "time [s]\n";
+        "time [s],contact_area [m^2],mean_pressure [Pa]\n";
     for (const double depth : {0.001, 0.002})
-      response += fmt::format("{},{},0,0,0,0,0,,,,0\n", depth, 100.0 * depth);
+      response += fmt::format("{},{},0,0,0,0,0,,,,0,,\n", depth, 100.0 * depth);
     write_file(runs.back() / "response.csv", response);
   }
   studies::report::write_comparison(runs, folder / "out");
