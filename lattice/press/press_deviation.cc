@@ -54,6 +54,17 @@ struct RoughForce {
   double curvature(double d) const { return factor * (0.75 / std::sqrt(d) + 2.0 * layer); }
 };
 
+/// By how much a contact of half axes A > B is resolved worse than a round one of their geometric
+/// mean: sqrt of the mean of (a/A)² and (a/B)². Hertz: about B/A = (R_B/R_A)^(2/3).
+double elongation(const Geometry& geometry, const meshes::Obstacle& obstacle) {
+  if (obstacle.is_plane() || obstacle.shape == meshes::ObstacleShape::sphere) return 1.0;
+  const auto shape = meshes::shape_of(geometry);
+  const double radii =
+                   std::pow(meshes::relative_radius(*shape, obstacle) / shape->pole_radius(), 2),
+               axes = std::pow(radii, 2.0 / 3.0);
+  return std::sqrt(0.5 * (axes + 1.0 / axes));
+}
+
 /// Of the rubber on its rod, the sleeve's lowest mode.
 struct Sway {
   double frequency = 0.0;  ///< [rad/s]
@@ -272,13 +283,15 @@ Rubber quarter_of(Rubber rubber) {
 struct ForceEstimator::Terms {
   PressSetup setup;
   RoughForce force, of_quarter;
+  double elongated = 1.0;    ///< of the contact
   std::optional<Sway> sway;  ///< in presses in time
   double scaled_step = 0.0;  ///< of scaled masses [s]; 0: plain ones
 
   explicit Terms(const PressSetup& with_program)
       : setup(pressed_once(with_program)),
         force(setup.geometry, setup.rubber, setup.protocol.obstacle),
-        of_quarter(setup.geometry, quarter_of(setup.rubber), setup.protocol.obstacle) {
+        of_quarter(setup.geometry, quarter_of(setup.rubber), setup.protocol.obstacle),
+        elongated(elongation(setup.geometry, setup.protocol.obstacle)) {
     if (setup.protocol.mode == meshes::DriveMode::equilibrium) return;
     sway.emplace(setup.geometry, setup.rubber);
     if (setup.integrator != Integrator::mass_scaled) return;
@@ -291,7 +304,7 @@ struct ForceEstimator::Terms {
     const double hertz = std::sqrt(force.pole_radius * depth);
     const bool central = setup.lattice.model == ModelKind::central;
     return (central ? springs_alone : solid_cells)
-        .at(spacing / patch.value_or(hertz), spacing / force.wall, spacing / hertz);
+        .at(elongated * spacing / patch.value_or(hertz), spacing / force.wall, spacing / hertz);
   }
   double model(double depth) const {
     if (setup.lattice.model != ModelKind::central) return 0.0;

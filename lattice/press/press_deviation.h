@@ -116,8 +116,9 @@ struct ForceEstimate {
 ///
 ///   A x² + B x³ + D y² + T <= max(C, E z),  x = h/a, y = h/w, z = h/sqrt(R delta),
 ///
-/// a that of the sample, R of both bodies together, T that of the ties, which are a little soft on
-/// any grid (lattice/MEASUREMENTS.md). A to T cover 95 % of the samples of presses drawn by a seed
+/// a that of the sample, of an elongated one (cylinders, edges) so that x² is the mean over its
+/// half axes, R of both bodies together, T that of the ties, which are a little soft on any grid
+/// (lattice/MEASUREMENTS.md). A to T cover 95 % of the samples of presses drawn by a seed
 /// (tests/judgement/drawn_presses.py; others judge). Programs, rubbers that relax and lateral
 /// motions are not among them.
 ///

@@ -2,7 +2,8 @@
 """Draws lattice presses by a seed and judges the errors that they tell of their forces.
 
     tests/judgement/drawn_presses.py [--seed 2] [--presses 300] [--only CLASS ...]
-                                     [--auto | --continuum] [--rows FILE] [--program fingertip]
+                                     [--auto | --edges | --continuum] [--rows FILE]
+                                     [--program fingertip]
 
 Each press is run twice: with `run.error = estimate`, which is judged, and with the continuum, which
 is the truth, at rest and to 0.2 % (as a solid to 1 %). A bar covers where
@@ -13,6 +14,8 @@ With --auto each press takes `lattice.spacing = "auto"` at a tolerance of 2, 5 o
 rest, and the error of its first sample is judged: within the tolerance in 95 % of the presses that
 `lattice.max_particles` allows, and in the median no more than 1.5 times finer than needed, if errors
 go with the power 2.4 of the spacing.
+
+With --edges the same presses are made on cylinders and rounded edges, whose truth is a solid's.
 
 With --continuum it is the continuum that is pressed, to 4, 2, 1 and on a meridian 0.1 %, and its own
 error that is judged, by a continuum to a tenth of what that tells at best (a solid's to a third).
@@ -106,11 +109,11 @@ def rows_of(file):
         return list(csv.DictReader(text))
 
 
-def truth_of(sets, tilted):
+def truth_of(sets, meridian):
     """Of the STL of the dome the dome's own meridian."""
     kept = [s for s in sets if not s.startswith(("geometry.", "press.speed", "press.mode"))
             or "profile" in s or "rod_radius" in s]
-    return kept + ["press.mode=static", f"reference.tolerance={0.01 if tilted else 0.002}",
+    return kept + ["press.mode=static", f"reference.tolerance={0.002 if meridian else 0.01}",
                    "reference.fields=false"]
 
 
@@ -128,6 +131,16 @@ def automatic(number, drawn):
     return classes, [*kept, "press.mode=static", "lattice.spacing=auto",
                      f"lattice.tolerance={tolerance}", f"lattice.max_particles={PARTICLES}"], \
         about | {"tolerance": tolerance}
+
+
+def on_edge(number, drawn):
+    """The same press on a cylinder or a rounded edge."""
+    classes, sets, about = drawn
+    body = "cylinder" if number % 2 else "edge"
+    radius = 1e3 * min(about["ball"], 0.02) * (1.0 if body == "cylinder" else 0.3)
+    kept = [s for s in sets if not s.startswith(("obstacle.", "press.tilt"))]
+    return [*classes[:4], body, "straight", *classes[6:]], \
+        [*kept, f"obstacle.shape={body}", f"obstacle.radius=\"{radius:.3f} mm\""], about
 
 
 def judge_automatic(samples, presses):
@@ -230,7 +243,8 @@ def measure(bench, number, drawn):
         return press.stderr.strip().splitlines()[:3]
     if "as fine as lattice.max_particles" in press.stderr:
         return []  # no promise
-    truth = bench.run("reference", [*truth_of(sets, "tilted" in classes),
+    meridian = not {"tilted", "cylinder", "edge"} & set(classes)
+    truth = bench.run("reference", [*truth_of(sets, meridian),
                                     f"reference.strain={strain}"], out / "truth")
     if truth.returncode not in (0, 3):
         return truth.stderr.strip().splitlines()[:3]
@@ -285,6 +299,7 @@ def main():
     parser.add_argument("--only", nargs="+", default=[])
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--auto", action="store_true")
+    mode.add_argument("--edges", action="store_true")
     mode.add_argument("--continuum", action="store_true")
     parser.add_argument("--rows")
     asked = parser.parse_args()
@@ -295,6 +310,8 @@ def main():
     drawn = [(i, d) for i, d in enumerate(drawn) if set(asked.only) <= set(d[0])]
     if asked.auto:
         drawn = [(i, automatic(i, d)) for i, d in drawn]
+    if asked.edges:
+        drawn = [(i, on_edge(i, d)) for i, d in drawn]
     samples, refused = [], 0
     with tempfile.TemporaryDirectory() as folder, \
             concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as workers:

@@ -136,6 +136,27 @@ lattice::ForceEstimate estimate_of(const PressSetup& setup, double depth = 1e-3,
 
 }  // namespace
 
+/// Of a contact as large an elongated one is resolved worse, by its half axes: of a cylinder of a
+/// third of the finger's radius Hertz' are as 1 to 4^(2/3).
+TEST(ForceEstimate, OfAnElongatedContactIsThatOfItsHalfAxes) {
+  PressSetup setup;
+  const auto on = [&](meshes::ObstacleShape shape, double radius) {
+    PressSetup other = setup;
+    other.protocol.obstacle.shape = shape;
+    other.protocol.obstacle.radius = radius;
+    return estimate_of(other).contact;
+  };
+  using enum meshes::ObstacleShape;
+  const double round = on(sphere, 5e-3), axes = std::pow(4.0, 2.0 / 3.0);
+  EXPECT_NEAR(round, estimate_of(setup).contact, 1e-15);
+  EXPECT_NEAR(on(cylinder, 1e3) / round, 1.0, 1e-6);
+  EXPECT_GT(on(edge, 1e-3), on(edge, 5e-3));
+  setup.lattice.spacing *= std::sqrt(0.5 * (axes + 1.0 / axes));
+  const double coarser = estimate_of(setup).contact;
+  setup.lattice.spacing = PressSetup().lattice.spacing;
+  EXPECT_NEAR(on(cylinder, setup.geometry.tip_radius / 3.0), coarser, 1e-12);
+}
+
 TEST(ForceEstimate, FallsWithTheSpacingAtAnOrderBetweenTwoAndThree) {
   constexpr double ties = 3e-3;  // remains
   PressSetup setup;
