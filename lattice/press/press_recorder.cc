@@ -63,12 +63,12 @@ PressSample PressRecorder::sample_between(const PressInstant& end, double fracti
   sample.torque_y = torque.y();
   sample.torque_z = torque.z();
   const ContactPatch patch = finger_->contact_patch();
-  sample.set_contact(patch.radius, patch.max_pressure);
-  if (stage == 0) {
+  sample.contact_radius = patch.radius;
+  sample.max_pressure = patch.max_pressure;
+  if (stage == 0)
     move(sample, {&PressSample::contact_radius, &PressSample::max_pressure}, end.indentation,
          sample.indentation);
-    sample.set_contact(sample.contact_radius, sample.max_pressure);
-  }
+  sample.set_contact(sample.contact_radius, sample.max_pressure);
   sample.time = between(previous_.time, end.time);
   if (lateral_) sample.lateral_displacement = between(previous_.lateral, end.lateral);
   if (program_) sample.stage = double(stage + 1);

@@ -156,19 +156,19 @@ std::string accuracy_note(const LoadedConfig& loaded, double masses) {
   const Config& config = loaded.config;
   const double depth = first_depth(loaded), wanted = config.spacing_tolerance;
   const lattice::ModelKind model = config.press.lattice.model;
-  const auto error = estimator_of_cells(config.press).at(depth);
+  const double error = estimator_of_cells(config.press).at(depth)->grid();  // of cells known
   std::string text;
   if (masses > config.max_particles) {
     const std::string thin = masses > many ? thin_part(config.press.geometry) : "";
     text = fmt::format(
         "more than lattice.max_particles = {:.3g}, for the finger's walls ask for it{}{}; ",
         config.max_particles, thin.empty() ? "" : ": ", thin);
-  } else if (error && error->grid() > wanted) {
+  } else if (error > wanted) {
     text = fmt::format("as fine as lattice.max_particles = {:.3g} allows; ", config.max_particles);
   }
   text += fmt::format(
       "it may put {:.2g} % on the force at {:.3g} mm, and less at larger depths ({:.3g} % wanted)",
-      100.0 * error->grid(), 1e3 * depth, 100.0 * wanted);
+      100.0 * error, 1e3 * depth, 100.0 * wanted);
   if (model == lattice::ModelKind::published || model == lattice::ModelKind::central)
     text += fmt::format(", but of a hookean lattice; what {} springs cannot be comes on top",
                         lattice::name(model));
