@@ -2,8 +2,8 @@
 """Draws lattice presses by a seed and judges the errors that they tell of their forces.
 
     tests/judgement/drawn_presses.py [--seed 2] [--presses 300] [--only CLASS ...]
-                                     [--auto | --edges | --continuum] [--rows FILE]
-                                     [--program fingertip]
+                                     [--auto | --edges | --aside | --continuum]
+                                     [--rows FILE] [--program fingertip]
 
 Each press is run twice: with `run.error = estimate`, which is judged, and with the continuum, which
 is the truth, at rest and to 0.2 % (as a solid to 1 %). A bar covers where
@@ -16,6 +16,8 @@ rest, and the error of its first sample is judged: within the tolerance in 95 % 
 go with the power 2.4 of the spacing.
 
 With --edges the same presses are made on cylinders and rounded edges, whose truth is a solid's.
+With --aside domes are tilted, slid by a quarter of the depth or meet a ball beside the axis, those in
+time under the PID controller: the errors of lateral force and torque are judged as well.
 
 With --continuum it is the continuum that is pressed, to 4, 2, 1 and on a meridian 0.1 %, and its own
 error that is judged, by a continuum to a tenth of what that tells at best (a solid's to a third).
@@ -109,6 +111,12 @@ def rows_of(file):
         return list(csv.DictReader(text))
 
 
+def place_of(row):
+    """Depth and lateral displacement [nm]."""
+    return (round(1e9 * float(row["indentation [m]"])),
+            round(1e9 * float(row.get("lateral_displacement [m]") or 0.0)))
+
+
 def truth_of(sets, meridian):
     """Of the STL of the dome the dome's own meridian."""
     kept = [s for s in sets if not s.startswith(("geometry.", "press.speed", "press.mode"))
@@ -141,6 +149,29 @@ def on_edge(number, drawn):
     kept = [s for s in sets if not s.startswith(("obstacle.", "press.tilt"))]
     return [*classes[:4], body, "straight", *classes[6:]], \
         [*kept, f"obstacle.shape={body}", f"obstacle.radius=\"{radius:.3f} mm\""], about
+
+
+def aside_of_axis(number, drawn):
+    """The same press as one of a dome whose symmetry is broken; in time by the PID controller."""
+    classes, sets, about = drawn
+    kept = [s for s in sets if not s.startswith(("obstacle.", "press.tilt", "press.mode",
+                                                 "press.speed", "geometry.", "lattice.spacing"))]
+    way = ("tilted", "slid", "ball beside")[number % 3]
+    moves = classes[2] == "in time"
+    depth, sets = 0.08 * (1 + number % 5), []
+    if way == "tilted":
+        sets = ['press.tilt="%d deg"' % (2 + number % 7)]
+    elif way == "slid":
+        sets = [f'press.lateral="{0.25 * depth:.4f} cm"']
+        kept = [s.replace("=frictionless", "=stick") for s in kept]
+    else:
+        sets = ["obstacle.shape=sphere", f'obstacle.radius="{5 + number % 10} mm"',
+                f'obstacle.offset="{0.5 + 0.25 * (number % 4)} mm"']
+    samples = ", ".join(f'"{depth * part:.4f} cm"' for part in SHARES)
+    kept = [s for s in kept if not s.startswith("press.samples")]
+    return [classes[0], classes[1], classes[2], way], \
+        [*kept, *sets, f"press.samples=[{samples}]", f"lattice.spacing=tip_radius/{6 + number % 7}",
+         f"press.mode={'pid' if moves else 'static'}"], about
 
 
 def judge_automatic(samples, presses):
@@ -243,17 +274,16 @@ def measure(bench, number, drawn):
         return press.stderr.strip().splitlines()[:3]
     if "as fine as lattice.max_particles" in press.stderr:
         return []  # no promise
-    meridian = not {"tilted", "cylinder", "edge"} & set(classes)
+    meridian = not {"tilted", "slid", "ball beside", "cylinder", "edge"} & set(classes)
     truth = bench.run("reference", [*truth_of(sets, meridian),
                                     f"reference.strain={strain}"], out / "truth")
     if truth.returncode not in (0, 3):
         return truth.stderr.strip().splitlines()[:3]
-    known = {round(float(row["indentation [m]"]), 9): row
-             for row in rows_of(out / "truth/response.csv")}
+    known = {place_of(row): row for row in rows_of(out / "truth/response.csv")}
     found = []
     for row in rows_of(out / "response.csv"):
-        true = known.get(round(float(row["indentation [m]"]), 9))
-        if not true:
+        true = known.get(place_of(row))
+        if not true or not true["force_error [N]"]:  # a truth of unknown quality judges nothing
             continue
         force, right = float(row["normal_force [N]"]), float(true["normal_force [N]"])
         if not force > 0.0:
@@ -300,6 +330,7 @@ def main():
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--auto", action="store_true")
     mode.add_argument("--edges", action="store_true")
+    mode.add_argument("--aside", action="store_true")
     mode.add_argument("--continuum", action="store_true")
     parser.add_argument("--rows")
     asked = parser.parse_args()
@@ -312,6 +343,8 @@ def main():
         drawn = [(i, automatic(i, d)) for i, d in drawn]
     if asked.edges:
         drawn = [(i, on_edge(i, d)) for i, d in drawn]
+    if asked.aside:
+        drawn = [(i, aside_of_axis(i, d)) for i, d in drawn]
     samples, refused = [], 0
     with tempfile.TemporaryDirectory() as folder, \
             concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as workers:
