@@ -100,7 +100,8 @@ def draw(numbers):
         sets.append(f"press.tilt=\"{tilt:.2f} deg\"")
     classes = [model, contact, "in time" if moves else "static", shape, body,
                "tilted" if tilted else "straight", "nu < 0.4" if ratio < 0.4 else "nu >= 0.4", law]
-    about = {"spacing": 1e-3 * radius / cells, "wall": 1e-3 * wall, "ratio": ratio,
+    about = {"flat": not tilted, "spacing": 1e-3 * radius / cells, "wall": 1e-3 * wall,
+             "ratio": ratio,
              "speed": 1e-2 * speed if moves else 0.0,
              "ball": 1e-3 * ball if body == "ball" else math.inf}
     return classes, sets, about
@@ -148,30 +149,33 @@ def on_edge(number, drawn):
     radius = 1e3 * min(about["ball"], 0.02) * (1.0 if body == "cylinder" else 0.3)
     kept = [s for s in sets if not s.startswith(("obstacle.", "press.tilt"))]
     return [*classes[:4], body, "straight", *classes[6:]], \
-        [*kept, f"obstacle.shape={body}", f"obstacle.radius=\"{radius:.3f} mm\""], about
+        [*kept, f"obstacle.shape={body}", f"obstacle.radius=\"{radius:.3f} mm\""], \
+        about | {"flat": False}
 
 
 def aside_of_axis(number, drawn):
     """The same press as one of a dome whose symmetry is broken; in time by the PID controller."""
     classes, sets, about = drawn
-    kept = [s for s in sets if not s.startswith(("obstacle.", "press.tilt", "press.mode",
-                                                 "press.speed", "geometry.", "lattice.spacing"))]
-    way = ("tilted", "slid", "ball beside")[number % 3]
-    moves = classes[2] == "in time"
-    depth, sets = 0.08 * (1 + number % 5), []
+    kept = [s for s in sets if not s.startswith((
+        "obstacle.", "press.tilt", "press.mode", "press.speed", "press.samples", "geometry.",
+        "lattice.spacing"))]
+    way, contact = ("tilted", "slid", "ball beside")[number % 3], classes[1]
+    mode = "pid" if classes[2] == "in time" else "static"
+    depth = 0.08 * (1 + number % 5)
     if way == "tilted":
-        sets = ['press.tilt="%d deg"' % (2 + number % 7)]
+        kept.append(f'press.tilt="{2 + number % 7} deg"')
     elif way == "slid":
-        sets = [f'press.lateral="{0.25 * depth:.4f} cm"']
-        kept = [s.replace("=frictionless", "=stick") for s in kept]
+        kept.append(f'press.lateral="{0.25 * depth:.4f} cm"')
+        if contact == "frictionless":
+            contact = "stick"
+            kept = [s.replace("=frictionless", "=stick") for s in kept]
     else:
-        sets = ["obstacle.shape=sphere", f'obstacle.radius="{5 + number % 10} mm"',
-                f'obstacle.offset="{0.5 + 0.25 * (number % 4)} mm"']
+        kept += ["obstacle.shape=sphere", f'obstacle.radius="{5 + number % 10} mm"',
+                 f'obstacle.offset="{0.5 + 0.25 * (number % 4)} mm"']
     samples = ", ".join(f'"{depth * part:.4f} cm"' for part in SHARES)
-    kept = [s for s in kept if not s.startswith("press.samples")]
-    return [classes[0], classes[1], classes[2], way], \
-        [*kept, *sets, f"press.samples=[{samples}]", f"lattice.spacing=tip_radius/{6 + number % 7}",
-         f"press.mode={'pid' if moves else 'static'}"], about
+    return [classes[0], contact, classes[2], way], \
+        [*kept, f"press.samples=[{samples}]", f"lattice.spacing=tip_radius/{6 + number % 7}",
+         f"press.mode={mode}"], about | {"flat": False}
 
 
 def judge_automatic(samples, presses):
@@ -274,9 +278,8 @@ def measure(bench, number, drawn):
         return press.stderr.strip().splitlines()[:3]
     if "as fine as lattice.max_particles" in press.stderr:
         return []  # no promise
-    meridian = not {"tilted", "slid", "ball beside", "cylinder", "edge"} & set(classes)
-    truth = bench.run("reference", [*truth_of(sets, meridian),
-                                    f"reference.strain={strain}"], out / "truth")
+    truth = bench.run("reference", [*truth_of(sets, about["flat"]), f"reference.strain={strain}"],
+                      out / "truth")
     if truth.returncode not in (0, 3):
         return truth.stderr.strip().splitlines()[:3]
     known = {place_of(row): row for row in rows_of(out / "truth/response.csv")}
@@ -339,12 +342,10 @@ def main():
     measure_one = measure_continuum if asked.continuum else measure
     drawn = [draw_one(numbers) for _ in range(asked.presses)]
     drawn = [(i, d) for i, d in enumerate(drawn) if set(asked.only) <= set(d[0])]
-    if asked.auto:
-        drawn = [(i, automatic(i, d)) for i, d in drawn]
-    if asked.edges:
-        drawn = [(i, on_edge(i, d)) for i, d in drawn]
-    if asked.aside:
-        drawn = [(i, aside_of_axis(i, d)) for i, d in drawn]
+    for asked_for, changed in ((asked.auto, automatic), (asked.edges, on_edge),
+                               (asked.aside, aside_of_axis)):
+        if asked_for:
+            drawn = [(i, changed(i, d)) for i, d in drawn]
     samples, refused = [], 0
     with tempfile.TemporaryDirectory() as folder, \
             concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as workers:
