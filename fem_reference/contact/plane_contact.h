@@ -105,6 +105,8 @@ class PlaneContact {
   int active_nodes() const;
   /// Force of the plane on a candidate node, plane axes [N].
   meshes::Vector3 reaction(std::size_t node) const;
+  /// Of the obstacle where a node touches it, into the tip, plane axes.
+  meshes::Vector3 normal(std::size_t node) const { return -axes(node).row(2).transpose(); }
   /// Its part into the tip, against the third axis of the node [N], and the length of the rest.
   double push(std::size_t node) const { return -own_reaction(node).z(); }
   double shear(std::size_t node) const { return own_reaction(node).head<2>().norm(); }

@@ -6,18 +6,10 @@
 #include <vector>
 
 #include "fem_reference/job/job.h"
+#include "meshes/press/contact_field.h"
 #include "meshes/press/press_response.h"
 
 namespace fingertip::fem_reference::inline job {
-
-/// A node that the plane pushes.
-struct ContactPoint {
-  /// Distance from the axis, of another shape than the dome from the line through where it touches
-  /// first: small strain reference, large strain current [m].
-  double radius = 0.0;
-  double pressure = 0.0;  ///< nodal force over lumped area (large strain: current area) [Pa]
-};
-FINGERTIP_FIELDS(ContactPoint, radius, pressure);
 
 /// What a sample cost.
 struct PressEffort {
@@ -26,7 +18,7 @@ struct PressEffort {
 
 /// What one sample yields, and what it cost.
 struct PressState : meshes::PressSample, PressEffort {
-  std::vector<ContactPoint> contact;  ///< by increasing radius
+  std::vector<meshes::ContactPoint> contact;  ///< nodes, with their images, that are pushed
   double node_spacing = 0.0;          ///< of the candidate nodes around the contact edge [m]
   double min_jacobian = 1.0;          ///< smallest det F at a quadrature point; 1 at small strain
   /// Stored in the rubber; if it relaxes, after long times of this strain [J].

@@ -33,20 +33,6 @@ consteval auto fields_of(const ConvergenceRow*) {
       .newer("indicator lateral_displacement");
 }
 
-/// pressure.csv: a node that is pushed.
-struct PressureRow {
-  double indentation = meshes::unknown;
-  double radius = meshes::unknown;
-  double pressure = meshes::unknown;
-  double lateral_displacement = meshes::unknown;
-};
-consteval auto fields_of(const PressureRow*) {
-  return FINGERTIP_ALL_MEMBERS(PressureRow, indentation, radius, pressure, lateral_displacement)
-      .in("m", "indentation radius lateral_displacement")
-      .in("Pa", "pressure")
-      .newer("lateral_displacement");
-}
-
 /// section.csv: a mesh edge in the plane y = 0, or of a whole solid where its surface crosses it,
 /// as (x1, z1, x2, z2) in plane axes [m].
 struct SectionRow {

@@ -127,21 +127,19 @@ class TipInMotion final : public TransientPress {
     state.torque_x = state.torque_y = state.torque_z = 0.0;
     state.energy = steps_.back().elastic_energy;
     state.active_nodes = contact_->active_nodes();
-    PushedNodes pushed{.sectors = int(copies<dim>), .meridian = dim == 2};
-    const Vector rest = body_->fine.vector();
-    std::vector<long> unknowns;
-    for (const SurfaceNode& node : contact_->unknowns().nodes) unknowns.push_back(node.unknown[2]);
-    const auto seen = body_->fine.gather(outer_area(*body_, &rest), unknowns);
+    const std::vector<SurfaceNode>& nodes = contact_->unknowns().nodes;
+    const std::vector<meshes::Vector3> rest(nodes.size(), meshes::Vector3::Zero());
+    PushedNodes pushed{.nodes = pushed_nodes(*contact_, rest, seen_areas(*body_, nodes, nullptr)),
+                       .sectors = int(copies<dim>),
+                       .meridian = dim == 2};
     double outermost = 0.0;
-    for (std::size_t i = 0; i < contact_->status().size(); ++i) {
-      const SurfaceNode& node = contact_->unknowns().nodes[i];
-      if (contact_->status()[i] == NodeStatus::open || node.area == 0.0) continue;
-      const double push = -contact_->reaction(i).z();
-      pushed.nodes.push_back({node.position.head<2>(), push / node.area, push, seen[i]});
-      if (radius(node) < outermost) continue;
-      outermost = radius(node);
-      pushed.spacing = dim == 2 ? node.area / circumference(dealii::Point<2>(radius(node), 0.0))
-                                : std::sqrt(node.area);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (contact_->status()[i] == NodeStatus::open || nodes[i].area == 0.0 ||
+          radius(nodes[i]) < outermost)
+        continue;
+      outermost = radius(nodes[i]);
+      pushed.spacing = dim == 2 ? nodes[i].area / circumference(dealii::Point<2>(outermost, 0.0))
+                                : std::sqrt(nodes[i].area);
     }
     measure_contact(state, pushed);
     return state;

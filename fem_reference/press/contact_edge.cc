@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -20,6 +21,18 @@ using Eigen::Vector2d;
 constexpr std::array<double, 4> reaches = {5.0, 7.0, 10.0, 15.0};
 constexpr int fewest_rings = 4;
 constexpr int nodes_per_ring = 16;  ///< all around a solid's contact, at least
+constexpr int points_around = 24;   ///< for which a ring is told
+
+Vector2d seen(const meshes::ContactPoint& node) {
+  return node.place.head<2>();
+}
+/// Along the press.
+double force(const meshes::ContactPoint& node) {
+  return -node.force().z();
+}
+double seen_area(const meshes::ContactPoint& node) {
+  return node.area * -node.normal.z();
+}
 
 /// s = (x - centre)ᵀ metric (x - centre).
 struct Ellipse {
@@ -33,21 +46,21 @@ struct Ellipse {
 /// Nothing of a line.
 std::optional<Ellipse> ellipse_of(const PushedNodes& contact) {
   if (contact.meridian) return Ellipse{};
-  double force = 0.0;
+  double sum = 0.0;
   Vector2d first = Vector2d::Zero();
   Matrix2d second = Matrix2d::Zero();
-  for (const PushedNode& node : contact.nodes) {
-    force += node.force;
-    first += node.force * node.place;
-    second += node.force * node.place * node.place.transpose();
+  for (const meshes::ContactPoint& node : contact.nodes) {
+    sum += force(node);
+    first += force(node) * seen(node);
+    second += force(node) * seen(node) * seen(node).transpose();
   }
-  if (!(force > 0.0)) return {};
+  if (!(sum > 0.0)) return {};
   Ellipse ellipse;
-  ellipse.centre = first / force;
+  ellipse.centre = first / sum;
   // What is odd in a mirrored direction cancels.
   if (contact.sectors > 1) ellipse.centre.y() = second(0, 1) = second(1, 0) = 0.0;
   if (contact.sectors > 2) ellipse.centre.x() = 0.0;
-  const Matrix2d spread = second / force - ellipse.centre * ellipse.centre.transpose();
+  const Matrix2d spread = second / sum - ellipse.centre * ellipse.centre.transpose();
   const double area = spread.determinant();
   if (!(area > 1e-6 * spread.squaredNorm())) return {};
   ellipse.metric = std::sqrt(area) * spread.inverse();
@@ -57,8 +70,8 @@ std::optional<Ellipse> ellipse_of(const PushedNodes& contact) {
 /// s at the zero of p²; nothing where the nodes tell none.
 std::optional<double> edge_of(const PushedNodes& contact, const Ellipse& ellipse) {
   double outermost = 0.0;
-  for (const PushedNode& node : contact.nodes)
-    outermost = std::max(outermost, ellipse.at(node.place));
+  for (const meshes::ContactPoint& node : contact.nodes)
+    outermost = std::max(outermost, ellipse.at(seen(node)));
   const double step = contact.spacing / ellipse.radius(outermost);
   for (const double reach : reaches) {
     if (!contact.meridian && reach == reaches.front()) continue;  // its outermost nodes scatter
@@ -66,12 +79,12 @@ std::optional<double> edge_of(const PushedNodes& contact, const Ellipse& ellipse
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     int count = 0;
-    for (const PushedNode& node : contact.nodes) {
-      const double s = ellipse.at(node.place) / outermost;
+    for (const meshes::ContactPoint& node : contact.nodes) {
+      const double s = ellipse.at(seen(node)) / outermost;
       if (!(s >= inner * inner)) continue;
       const Eigen::Vector3d basis(1.0, s, s * s);
       normal += basis * basis.transpose();
-      right += node.pressure * node.pressure * basis;
+      right += node.normal_traction * node.normal_traction * basis;
       ++count;
     }
     const int per_ring = contact.meridian ? 1 : nodes_per_ring / contact.sectors;
@@ -90,9 +103,31 @@ std::optional<double> edge_of(const PushedNodes& contact, const Ellipse& ellipse
 
 }  // namespace
 
+std::vector<meshes::ContactPoint> pushed_nodes(const PlaneContact& contact,
+                                               const std::vector<meshes::Vector3>& moved,
+                                               const std::vector<double>& seen) {
+  const std::vector<SurfaceNode>& nodes = contact.unknowns().nodes;
+  const std::vector<NodeStatus>& status = contact.status();
+  std::vector<meshes::Vector3> force(nodes.size(), meshes::Vector3::Zero());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (status[i] != NodeStatus::open) force[contact.leader(i)] += contact.reaction(i);
+  std::vector<meshes::ContactPoint> pushed;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (status[i] == NodeStatus::open || !(seen[i] > 0.0)) continue;
+    meshes::ContactPoint& point = pushed.emplace_back();
+    point.place = nodes[i].position + moved[i];
+    point.normal = contact.normal(i);
+    point.area = seen[i] / -point.normal.z();
+    point.state =
+        status[i] == NodeStatus::stick ? meshes::ContactState::stick : meshes::ContactState::slip;
+    point.set_force(force[i]);
+  }
+  return pushed;
+}
+
 double contact_radius(const PushedNodes& contact) {
   double area = 0.0;
-  for (const PushedNode& node : contact.nodes) area += contact.sectors * node.area;
+  for (const meshes::ContactPoint& node : contact.nodes) area += contact.sectors * seen_area(node);
   const double own = std::sqrt(area / std::numbers::pi);
   const auto ellipse = ellipse_of(contact);
   const auto edge = ellipse ? edge_of(contact, *ellipse) : std::nullopt;
@@ -104,12 +139,13 @@ double contact_radius(const PushedNodes& contact) {
 void measure_contact(PressState& state, const PushedNodes& contact) {
   state.node_spacing = contact.spacing;
   double peak = 0.0;
-  for (const PushedNode& node : contact.nodes) {
-    if (!(node.area > 0.0)) continue;
-    state.contact.push_back({node.place.norm(), node.pressure});
-    peak = std::max(peak, node.pressure);
+  state.contact.clear();
+  for (const meshes::ContactPoint& node : contact.nodes) {
+    peak = std::max(peak, node.normal_traction);
+    if (contact.meridian)
+      std::ranges::copy(turned_around(node, points_around), std::back_inserter(state.contact));
   }
-  std::ranges::sort(state.contact, {}, &ContactPoint::radius);
+  if (!contact.meridian) state.contact = meshes::unfolded(contact.nodes, contact.sectors);
   state.set_contact(contact_radius(contact), peak);
 }
 

@@ -4,25 +4,24 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "fem_reference/contact/plane_contact.h"
 #include "fem_reference/job/press_state.h"
 
 namespace fingertip::fem_reference::inline press {
 
-/// A node that the obstacle pushes, seen along the press.
-struct PushedNode {
-  Eigen::Vector2d place;  ///< from the contact's centre; on a meridian along its first axis [m]
-  double pressure = 0.0;  ///< [Pa]
-  double force = 0.0;     ///< along the press [N]
-  double area = 0.0;      ///< for which it stands, seen along the press [m²]
-};
-
-/// Nodes of which contact: `sectors` times as many stand around it.
+/// Nodes that the obstacle pushes: `sectors` times as many stand around the contact.
 struct PushedNodes {
-  std::vector<PushedNode> nodes{};
+  std::vector<meshes::ContactPoint> nodes{};
   int sectors = 1;        ///< of a part: 2, y >= 0, or 4, x, y >= 0
-  bool meridian = false;  ///< a node is a ring
+  bool meridian = false;  ///< a node is a ring about the z axis
   double spacing = 0.0;   ///< of nodes around the edge [m]
 };
+
+/// The nodes that touch, `moved` from rest and standing for areas seen along the press [m²]: what a
+/// pole without area bears its neighbour does.
+std::vector<meshes::ContactPoint> pushed_nodes(const PlaneContact& contact,
+                                               const std::vector<meshes::Vector3>& moved,
+                                               const std::vector<double>& seen);
 
 /// Radius of the circle that has the contact's area [m].
 ///
@@ -34,8 +33,8 @@ struct PushedNodes {
 /// and the faces of blocks.
 double contact_radius(const PushedNodes& contact);
 
-/// Notes the nodes in a state whose normal force is known, by increasing radius, and tells radius,
-/// area, mean and largest pressure.
+/// Notes the nodes, all around, in a state whose normal force is known, and tells radius, area,
+/// mean and largest pressure.
 void measure_contact(PressState& state, const PushedNodes& contact);
 
 }  // namespace fingertip::fem_reference::inline press

@@ -98,34 +98,26 @@ void TipPress<dim>::add_resultant(PressState& state) const {
   const std::vector<SurfaceNode>& nodes = contact_->unknowns().nodes;
   const bool finite = job_.strain == Strain::finite;
   // Large strain: true pressure on the deformed surface, moments at deformed positions.
-  const Vector rest = body_->fine.vector();
-  const Vector areas = outer_area(*body_, finite ? &displacement_ : &rest);
-  std::vector<std::array<double, 4>> now(nodes.size());  // displacement, area seen along the press
-  for (std::size_t c = finite ? 0 : 3; c < 4; ++c) {
+  const std::vector<double> seen = seen_areas(*body_, nodes, finite ? &displacement_ : nullptr);
+  std::vector<meshes::Vector3> moved(nodes.size(), meshes::Vector3::Zero());
+  for (std::size_t c = 0; finite && c < 3; ++c) {
+    if (Kinematics<dim>::revolved && c == 1) continue;  // it has no unknown
     std::vector<long> unknowns;
-    for (const SurfaceNode& node : nodes)
-      unknowns.push_back(node.unknown[std::min<std::size_t>(c, 2)]);
-    const auto values = body_->fine.gather(c < 3 ? displacement_ : areas, unknowns);
-    for (std::size_t i = 0; i < nodes.size(); ++i) now[i][c] = values[i];
+    for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[c]);
+    const auto values = body_->fine.gather(displacement_, unknowns);
+    for (std::size_t i = 0; i < nodes.size(); ++i) moved[i][Eigen::Index(c)] = values[i];
   }
-  if (Kinematics<dim>::revolved)
-    for (auto& node : now) node[1] = 0.0;  // it has no unknown
   const Eigen::AngleAxisd to_rod(job_.protocol.tilt, meshes::Vector3::UnitY());
   const meshes::Vector3 endpoint = to_rod.inverse() * job_.geometry.rod_endpoint();
   meshes::Vector3 force = meshes::Vector3::Zero(), torque = force;
-  PushedNodes pushed{.sectors = int(sectors), .meridian = Kinematics<dim>::revolved};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (contact_->status()[i] == NodeStatus::open) continue;
-    meshes::Vector3 position = nodes[i].position;
-    if (finite) position += meshes::Vector3(now[i][0], now[i][1], now[i][2]);
     const meshes::Vector3 push = contact_->reaction(i);
     force += push;
-    torque += (position - endpoint).cross(push);
-    if (!(nodes[i].area > 0.0)) continue;  // a pole
-    const double area = finite ? now[i][3] : nodes[i].area;
-    pushed.nodes.push_back(
-        {(position - centre_).template head<2>(), contact_->push(i) / area, -push.z(), now[i][3]});
+    torque += (nodes[i].position + moved[i] - endpoint).cross(push);
   }
+  PushedNodes pushed{.nodes = pushed_nodes(*contact_, moved, seen),
+                     .sectors = int(sectors),
+                     .meridian = Kinematics<dim>::revolved};
   state.normal_force = -sectors * force.z();
   torque = to_rod * torque;
   // What breaks no symmetry vanishes.

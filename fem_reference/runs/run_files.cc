@@ -15,11 +15,10 @@ void write_samples(const std::vector<PressState>& states, const std::filesystem:
   meshes::PressResponse response;
   for (const PressState& state : states) response.append(state);
   response.write_csv(folder / "response.csv");
-  std::vector<PressureRow> rows;
-  for (const PressState& state : states)
-    for (const ContactPoint& point : state.contact)
-      rows.push_back({state.indentation, point.radius, point.pressure, state.lateral_displacement});
-  meshes::write_rows(rows, folder / "pressure.csv");
+  std::vector<meshes::ContactPoint> points;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    meshes::add_sample(states[i].contact, int(i + 1), states[i].indentation, points);
+  meshes::write_rows(points, folder / "contact_field.csv");
 }
 
 void write_convergence(const MeshHistory& history, const std::filesystem::path& folder) {

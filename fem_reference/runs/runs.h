@@ -40,7 +40,7 @@ PressCost press_cost(const std::filesystem::path& folder, const ReferenceJob& jo
 RunOutcome run_modes(const std::filesystem::path& folder, const ReferenceJob& job,
                      std::ostream& progress, const std::function<bool()>& stop_requested);
 
-/// Analysis::transient. Writes response.csv, pressure.csv, transient.csv (`time [s],indentation
+/// Analysis::transient. Writes response.csv, contact_field.csv, transient.csv (`time [s],indentation
 /// [m],normal_force [N],contact_force [N]`, at most 2000 rows), convergence.csv, fields and
 /// summary.json.
 ///

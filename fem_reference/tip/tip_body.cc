@@ -176,6 +176,15 @@ Vector outer_area(const Body<dim>& tip, const Vector* displacement) {
 }
 
 template <int dim>
+std::vector<double> seen_areas(const Body<dim>& tip, const std::vector<SurfaceNode>& nodes,
+                               const Vector* displacement) {
+  const Vector rest = tip.fine.vector();
+  std::vector<long> unknowns;
+  for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[2]);
+  return tip.fine.gather(outer_area(tip, displacement ? displacement : &rest), unknowns);
+}
+
+template <int dim>
 std::vector<SurfaceNode> outer_nodes(const Body<dim>& tip) {
   const Space<dim>& space = tip.fine;
   const Vector area = outer_area(tip);
@@ -231,12 +240,14 @@ std::vector<SurfaceNode> outer_nodes(const Body<dim>& tip) {
   return nodes;
 }
 
-#define FINGERTIP_INSTANTIATE(dim)                                                          \
-  template std::unique_ptr<Body<dim>> read_tip(MPI_Comm, const std::filesystem::path&, int, \
-                                               double, const meshes::Geometry&);            \
-  template std::vector<FixedComponent> tip_supports<dim>();                                 \
-  template std::vector<SurfaceNode> outer_nodes(const Body<dim>&);                          \
-  template Vector outer_area(const Body<dim>&, const Vector*);
+#define FINGERTIP_INSTANTIATE(dim)                                                           \
+  template std::unique_ptr<Body<dim>> read_tip(MPI_Comm, const std::filesystem::path&, int,  \
+                                               double, const meshes::Geometry&);             \
+  template std::vector<FixedComponent> tip_supports<dim>();                                  \
+  template std::vector<SurfaceNode> outer_nodes(const Body<dim>&);                           \
+  template Vector outer_area(const Body<dim>&, const Vector*);                               \
+  template std::vector<double> seen_areas(const Body<dim>&, const std::vector<SurfaceNode>&, \
+                                          const Vector*);
 FINGERTIP_INSTANTIATE(2)
 FINGERTIP_INSTANTIATE(3)
 #undef FINGERTIP_INSTANTIATE

@@ -36,4 +36,9 @@ std::vector<SurfaceNode> outer_nodes(const Body<dim>& tip);
 template <int dim>
 Vector outer_area(const Body<dim>& tip, const Vector* displacement = nullptr);
 
+/// Of nodes, seen along the press; at rest without a displacement [m²].
+template <int dim>
+std::vector<double> seen_areas(const Body<dim>& tip, const std::vector<SurfaceNode>& nodes,
+                               const Vector* displacement);
+
 }  // namespace fingertip::fem_reference::inline tip

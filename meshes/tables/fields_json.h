@@ -97,6 +97,8 @@ void read_json(const Json& json, Value& value) {
     });
   } else if constexpr (is_list<Value>) {
     for (const Json& element : json) read_json(element, value.emplace_back());
+  } else if constexpr (requires { value.derived(); }) {  // of Eigen, of fixed size
+    for (std::size_t i = 0; i < std::size_t(value.size()); ++i) json.at(i).get_to(value.data()[i]);
   } else if constexpr (std::is_enum_v<Value>) {
     value = enumerator<Value>(json.template get<std::string>()).value_or(value);
   } else if constexpr (std::is_floating_point_v<Value>) {

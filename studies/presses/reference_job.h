@@ -7,7 +7,7 @@
 namespace fingertip::studies::inline presses {
 
 /// The continuum by fingertip-fem. Files: job.json, summary.json, convergence.csv, tip.msh,
-/// section.csv, pressure.csv, fields/, and by analysis response.csv (static press), also
+/// section.csv, contact_field.csv, fields/, and by analysis response.csv (static press), also
 /// transient.csv (transient), or modes.csv (modes). While it is unfinished, checkpoint/, from which
 /// it goes on when it is run again in the same folder.
 Job reference_job(const fem_reference::ReferenceJob& reference);

@@ -29,7 +29,8 @@ std::vector<NotRun> missing_parts(const RunData& run) {
   need(!run.convergence.empty(), "Forces of the continuum on its sequence of meshes",
        "reference/convergence.csv");
   need(!run.section.empty(), "Picture of the continuum's mesh", "reference/section.csv");
-  need(!run.pressure.empty(), "Contact pressure of the continuum", "reference/pressure.csv");
+  need(!run.contact_field.empty(), "Contact pressure of the continuum",
+       "reference/contact_field.csv");
   need(!run.reference_job.empty(), "Hertz's contact beside the continuum's", "reference/job.json");
   need(!run.verification.empty(), "Verification of the continuum's code",
        "verification/verification.json");

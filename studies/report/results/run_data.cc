@@ -217,7 +217,7 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
       reader.json(folder / "verification" / "verification.json"));
   run.convergence = reader.rows<fem_reference::ConvergenceRow>(continuum / "convergence.csv");
   run.section = reader.rows<fem_reference::SectionRow>(continuum / "section.csv");
-  run.pressure = reader.rows<fem_reference::PressureRow>(continuum / "pressure.csv");
+  run.contact_field = reader.rows<meshes::ContactPoint>(continuum / "contact_field.csv");
   run.cubes = reader.rows<CubeRow>(folder / "cubes.csv");
   run.published_study = reader.rows<PublishedStudyRow>(folder / "published_study.csv");
   run.equilibrium_study = reader.rows<EquilibriumStudyRow>(folder / "equilibrium_study.csv");

@@ -15,6 +15,7 @@
 #include "fem_reference/job/run_tables.h"
 #include "fem_reference/verification/verification_file.h"
 #include "lattice/press/trace.h"
+#include "meshes/press/contact_field.h"
 #include "meshes/press/press_response.h"
 #include "studies/files/case_summary.h"
 #include "studies/files/folder_reader.h"
@@ -127,7 +128,7 @@ struct RunData {
   meshes::PressResponse reference;  ///< empty when the continuum was not run
   std::vector<fem_reference::ConvergenceRow> convergence;
   std::vector<fem_reference::SectionRow> section;
-  std::vector<fem_reference::PressureRow> pressure;
+  std::vector<meshes::ContactPoint> contact_field;  ///< of the continuum
   std::vector<CubeRow> cubes;
   std::vector<PublishedStudyRow> published_study;
   std::vector<EquilibriumStudyRow> equilibrium_study;

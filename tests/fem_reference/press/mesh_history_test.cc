@@ -32,7 +32,12 @@ PressState state(double indentation, double force, double spacing) {
   result.normal_force = force;
   result.contact_radius = std::sqrt(indentation * 0.01);
   result.max_pressure = 1e5 * force;
-  result.contact = {{0.0, 1e5 * force}, {1.0 / 3.0, 0.1}};
+  for (const double pressure : {1e5 * force, 1.0 / 3.0}) {
+    meshes::ContactPoint& point = result.contact.emplace_back();
+    point.place = {1.0 / 3.0, 0.0, 0.01};
+    point.normal_traction = pressure;
+    point.state = meshes::ContactState::slip;
+  }
   result.node_spacing = spacing;
   result.min_jacobian = 0.9;
   result.energy = force * indentation / 3;
@@ -196,7 +201,9 @@ TEST(MeshHistory, SurvivesJson) {
   EXPECT_TRUE(std::isnan(b.lateral_force_x));
   EXPECT_TRUE(std::isnan(b.time));
   EXPECT_EQ(b.contact.size(), 2u);
-  EXPECT_EQ(b.contact[1].radius, 1.0 / 3.0);
+  EXPECT_EQ(b.contact[1].place, a.contact[1].place);
+  EXPECT_EQ(b.contact[1].normal_traction, 1.0 / 3.0);
+  EXPECT_EQ(b.contact[1].state, meshes::ContactState::slip);
   EXPECT_EQ(b.node_spacing, a.node_spacing);
   EXPECT_EQ(b.min_jacobian, a.min_jacobian);
   EXPECT_EQ(b.energy, a.energy);
@@ -225,10 +232,11 @@ TEST(RunFiles, SamplesAreTheBestOnesWithTheirErrors) {
   ASSERT_EQ(response.samples().size(), 2u);
   EXPECT_EQ(response.samples()[0].normal_force, 1.01);
   EXPECT_NEAR(response.samples()[0].force_error, three_meshes().error(0).value, 1e-12);
-  const auto pressure = lines_of(folder / "pressure.csv");
-  ASSERT_EQ(pressure.size(), 5u);
-  EXPECT_EQ(pressure[0], "indentation [m],radius [m],pressure [Pa],lateral_displacement [m]");
-  EXPECT_NE(pressure[4].find("0.333333333333"), std::string::npos);
+  const auto points = meshes::read_rows<meshes::ContactPoint>(folder / "contact_field.csv");
+  ASSERT_EQ(points.size(), 4u);
+  EXPECT_EQ(points[3].sample, 2);
+  EXPECT_EQ(points[3].indentation, response.samples()[1].indentation);
+  EXPECT_EQ(points[3].normal_traction, 1.0 / 3.0);
 }
 
 TEST(RunFiles, ConvergenceHasARowPerMeshAndSample) {

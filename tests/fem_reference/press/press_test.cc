@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -18,10 +19,10 @@
 #include "tests/fem_reference/press/pressing.h"
 
 using namespace fingertip;
-using fem_reference::ContactPoint;
 using fem_reference::LinearSolver;
 using fem_reference::PressState;
 using fem_reference::ReferenceJob;
+using fem_reference::Strain;
 using meshes::ContactMode;
 
 namespace {
@@ -100,15 +101,51 @@ TEST(ContinuumPress, StickStoresTheWorkOfItsForce) {
 TEST(ContinuumPress, PressuresArePositiveAndAddUp) {
   ReferenceJob job = small_press();
   const PressState state = pressed(job);
-  EXPECT_EQ(int(state.contact.size()), state.active_nodes);
-  EXPECT_TRUE(std::ranges::is_sorted(state.contact, {}, &ContactPoint::radius));
-  for (const ContactPoint& point : state.contact) EXPECT_GE(point.pressure, 0.0);
+  EXPECT_EQ(int(state.contact.size()), 4 * state.active_nodes);  // of a quarter
+  for (const meshes::ContactPoint& point : state.contact) EXPECT_GE(point.normal_traction, 0.0);
   const double a = state.contact_radius;
   EXPECT_NEAR(a, 3.494e-3, state.node_spacing);
   // Hertz's profile has 1.5 times the mean pressure at the pole; the bond makes it steeper.
   const double mean = state.normal_force / (std::numbers::pi * a * a);
   EXPECT_GT(state.max_pressure, 1.4 * mean);
   EXPECT_LT(state.max_pressure, 1.7 * mean);
+}
+
+/// Whatever is mirrored, turned around, tilted or curved.
+TEST(ContinuumPress, TheFieldOfTheContactAddsUpToForceAndTorque) {
+  std::vector<ReferenceJob> jobs = {meridian_press(), small_press(), small_press(), small_press()};
+  jobs[0].protocol.contact = ContactMode::stick;
+  jobs[0].strain = Strain::finite;
+  jobs[0].protocol.obstacle = {.shape = meshes::ObstacleShape::sphere, .radius = 8e-3};
+  jobs[2].protocol.contact = ContactMode::stick;
+  jobs[2].protocol.tilt = 0.1;
+  jobs[3].strain = Strain::finite;
+  jobs[3].protocol.obstacle = {
+      .shape = meshes::ObstacleShape::sphere, .radius = 8e-3, .offset = 1e-3};
+  for (const ReferenceJob& job : jobs) {
+    const PressState state = pressed(job, 0.05);
+    const Eigen::AngleAxisd to_rod(job.protocol.tilt, meshes::Vector3::UnitY());
+    const auto sums =
+        meshes::sums_of(state.contact, to_rod.inverse() * job.geometry.rod_endpoint());
+    const meshes::Vector3 torque = to_rod * sums.torque;
+    const double force = state.normal_force, arm = force * job.geometry.rod_length;
+    ASSERT_GT(force, 0.0);
+    EXPECT_NEAR(-sums.force.z(), force, 1e-10 * force);
+    EXPECT_NEAR(sums.force.x(), state.lateral_force_x, 1e-10 * force);
+    EXPECT_NEAR(sums.force.y(), state.lateral_force_y, 1e-10 * force);
+    EXPECT_NEAR(torque.x(), state.torque_x, 1e-10 * arm);
+    EXPECT_NEAR(torque.y(), state.torque_y, 1e-10 * arm);
+    EXPECT_NEAR(torque.z(), state.torque_z, 1e-10 * arm);
+    double area = 0.0;
+    for (const meshes::ContactPoint& point : state.contact) {
+      EXPECT_NEAR(point.shear.dot(point.normal), 0.0, 1e-12 * state.max_pressure);
+      if (job.protocol.contact == ContactMode::frictionless) {
+        EXPECT_LE(point.shear.norm(), 1e-6 * state.max_pressure);
+      }
+      area += point.area * -point.normal.z();
+    }
+    EXPECT_NEAR(std::sqrt(area / std::numbers::pi), state.contact_radius, state.node_spacing);
+  }
 }
 
 TEST(ContinuumPress, StickIsStifferAndDoesNotDependOnItsSteps) {
@@ -286,13 +323,21 @@ TEST(ContinuumPress, FieldsAreWrittenForParaView) {
 
 using fem_reference::PushedNodes;
 
+meshes::ContactPoint node(double x, double y, double pressure, double area) {
+  meshes::ContactPoint point;
+  point.place = {x, y, 0.0};
+  point.area = area;
+  point.normal_traction = pressure;
+  return point;
+}
+
 /// Rings `spacing` apart up to `edge`.
 PushedNodes rings(double spacing, double edge, const std::function<double(double)>& pressure) {
   PushedNodes contact{.meridian = true, .spacing = spacing};
   for (int i = 0; i * spacing < edge; ++i) {
     const double r = i * spacing,
                  area = 2.0 * std::numbers::pi * std::max(r, spacing / 8) * spacing;
-    contact.nodes.push_back({{r, 0.0}, pressure(r), pressure(r) * area, area});
+    contact.nodes.push_back(node(r, 0.0, pressure(r), area));
   }
   return contact;
 }
@@ -307,8 +352,7 @@ PushedNodes ellipse(double a, double b, const Eigen::Vector2d& centre, double sp
       const Eigen::Vector2d at = spacing * Eigen::Vector2d(i + 0.5, j + 0.5), d = at - centre;
       const double s = std::pow(d.x() / a, 2) + std::pow(d.y() / b, 2);
       if (s >= 1.0) continue;
-      const double p = std::sqrt(1.0 - s), area = spacing * spacing;
-      contact.nodes.push_back({at, p, p * area, area});
+      contact.nodes.push_back(node(at.x(), at.y(), std::sqrt(1.0 - s), spacing * spacing));
     }
   return contact;
 }
@@ -361,7 +405,7 @@ TEST(ContactEdge, IsThatOfTheAreaWhateverThePressure) {
   EXPECT_NEAR(area, 2.0 * std::numbers::pi * 0.09, 0.01);
   EXPECT_NEAR(fem_reference::contact_radius(two), std::sqrt(area / std::numbers::pi), 0.0201);
   PushedNodes line{.spacing = 0.1};
-  for (int i = 0; i < 30; ++i) line.nodes.push_back({{0.1 * i, 0.0}, 1.0, 0.01, 0.01});
+  for (int i = 0; i < 30; ++i) line.nodes.push_back(node(0.1 * i, 0.0, 1.0, 0.01));
   EXPECT_NEAR(fem_reference::contact_radius(line), std::sqrt(0.3 / std::numbers::pi), 1e-12);
 }
 

@@ -185,7 +185,7 @@ TEST(ProgramPress, StickLetsGoOfWhatIsPulled) {
   const std::vector<PressState> all = states(job);
   for (const PressState& state : all) {
     EXPECT_GE(state.normal_force, 0.0);
-    for (const auto& point : state.contact) EXPECT_GT(point.pressure, -1e-6 * state.max_pressure);
+    for (const auto& point : state.contact) EXPECT_GT(point.normal_traction, -1e-6 * state.max_pressure);
   }
   EXPECT_EQ(all[7].normal_force, 0.0);
   for (std::size_t i = 0; i < 3; ++i)

@@ -125,7 +125,7 @@ TEST(ReferenceRun, LeavesACompleteFolder) {
        {"tip.msh", "fields/press_0001.vtu", "fields/press_0002.vtu", "fields/press.pvd"})
     EXPECT_TRUE(fs::exists(folder / file)) << file;
   EXPECT_GT(count_lines(folder / "section.csv"), 50u);
-  EXPECT_GT(count_lines(folder / "pressure.csv"), 10u);
+  EXPECT_GT(count_lines(folder / "contact_field.csv"), 10u);
   EXPECT_EQ(count_lines(folder / "convergence.csv"), 1u + 3 * 2);
   EXPECT_FALSE(fs::exists(folder / "checkpoint"));
 

@@ -1,6 +1,8 @@
 #include "tests/studies/report/synthetic_run.h"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <iterator>
 
 #include <array>
 #include <cmath>
@@ -12,6 +14,7 @@
 #include "calibration/files/fit_file.h"
 #include "fem_reference/job/run_tables.h"
 #include "lattice/press/trace.h"
+#include "meshes/press/contact_field.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/files/manifest.h"
@@ -224,15 +227,20 @@ void write_verification(const fs::path& folder) {
 }
 
 void write_pressure(const fs::path& folder) {
-  std::string text = "indentation [m],radius [m],pressure [Pa]\n";
+  std::vector<meshes::ContactPoint> points;
+  int sample = 0;
   for (double d : depths) {
     const double a = std::sqrt(1.1 * d * radius);
+    ++sample;
     for (int i = 0; i <= 20; ++i) {
-      text += fmt::format("{},{},{}\n", d, a * i / 20.0,
-                          1e6 * d * std::sqrt(std::max(0.0, 1.0 - i * i / 400.0)));
+      meshes::ContactPoint ring{.sample = sample, .indentation = d};
+      ring.place.x() = a * i / 20.0;
+      ring.area = 1e-8;
+      ring.normal_traction = 1e6 * d * std::sqrt(std::max(0.0, 1.0 - i * i / 400.0));
+      std::ranges::copy(meshes::turned_around(ring, 4), std::back_inserter(points));
     }
   }
-  write_file(folder / "pressure.csv", text);
+  meshes::write_rows(points, folder / "contact_field.csv");
 }
 
 /// Outer particles of a voxelised tip and the axis springs between them; the deformed ones in the

@@ -51,16 +51,17 @@ struct PressureProfile {
 
 std::vector<PressureProfile> pressure_profiles(const RunData& run) {
   std::vector<PressureProfile> profiles;
-  const fem_reference::PressureRow* first = nullptr;  // of the profile
-  for (const fem_reference::PressureRow& row : run.pressure) {
-    if (profiles.empty() || !same_depth(profiles.back().depth, row.indentation)) {
-      profiles.push_back({row.indentation, {}, {}});
-      first = &row;
-    }
+  for (const auto points : grouped(
+           run.contact_field, [](const auto&a, const auto&b) { return a.sample == b.sample; })) {
+    const double depth = points.front().indentation;
     // At full depth others may follow, of a lateral motion.
-    if (std::abs(row.lateral_displacement - first->lateral_displacement) > 0.0) continue;
-    profiles.back().radius.push_back(row.radius);
-    profiles.back().pressure.push_back(row.pressure);
+    if (!profiles.empty() && same_depth(profiles.back().depth, depth)) continue;
+    const meshes::Vector3 centre = meshes::centre_of_pressure(points);
+    PressureProfile& profile = profiles.emplace_back(PressureProfile{depth, {}, {}});
+    for (const meshes::ContactPoint& point : points) {
+      profile.radius.push_back((point.place - centre).head<2>().norm());
+      profile.pressure.push_back(point.normal_traction);
+    }
   }
   return profiles;
 }

@@ -147,9 +147,9 @@ using Rows =
     testing::Types<meshes::PressSample, lattice::TraceRow, BoundaryRow, BoundarySpringRow,
                    ContactRow, SnapshotRow, SnapshotPointRow, LatticeModeRow, CubeRow,
                    PublishedStudyRow, EquilibriumStudyRow, VariantRow, TransferRow,
-                   fem_reference::ConvergenceRow, fem_reference::PressureRow,
-                   fem_reference::SectionRow, fem_reference::TransientStep, fem_reference::ModeRow,
-                   calibration::FitDataRow, calibration::SurrogateRow, lattice::GraspRow>;
+                   fem_reference::ConvergenceRow, meshes::ContactPoint, fem_reference::SectionRow,
+                   fem_reference::TransientStep, fem_reference::ModeRow, calibration::FitDataRow,
+                   calibration::SurrogateRow, lattice::GraspRow>;
 TYPED_TEST_SUITE(Table, Rows);
 
 TYPED_TEST(Table, ReadsBackWhatIsWritten) {
@@ -192,7 +192,7 @@ TEST_F(Fields, MissingColumnsAreNamed) {
   expect_columns_missed<EquilibriumStudyRow>(run_, "equilibrium_study.csv");
   expect_columns_missed<fem_reference::ConvergenceRow>(run_, "reference/convergence.csv");
   expect_columns_missed<fem_reference::SectionRow>(run_, "reference/section.csv");
-  expect_columns_missed<fem_reference::PressureRow>(run_, "reference/pressure.csv");
+  expect_columns_missed<meshes::ContactPoint>(run_, "reference/contact_field.csv");
 }
 
 /// Tables that the synthetic run has not, with a row each.

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <iterator>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,8 @@
 #include <sstream>
 
 #include "meshes/base/errors.h"
+#include "meshes/press/contact_field.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/report/report.h"
 #include "tests/expectations.h"
 #include "tests/studies/report/page_check.h"
@@ -202,10 +205,15 @@ TEST_F(ContinuumReport, WithoutTheJobThereIsNoHertz) {
 }
 
 TEST_F(ContinuumReport, ManyNodesAreThinnedButKeepTheirPeaks) {
-  std::string table = "indentation [m],radius [m],pressure [Pa]\n";
-  for (int i = 0; i < 20000; ++i)
-    table += "0.003," + std::to_string(3e-7 * i) + "," + (i == 12345 ? "9000" : "1000") + "\n";
-  write_file(run_ / "reference" / "pressure.csv", table);
+  std::vector<meshes::ContactPoint> field;
+  for (int i = 0; i < 20000; ++i) {
+    meshes::ContactPoint ring{.sample = 1, .indentation = 0.003};
+    ring.place.x() = 3e-7 * i;
+    ring.area = 1e-9;
+    ring.normal_traction = i == 12345 ? 9000.0 : 1000.0;
+    std::ranges::copy(meshes::turned_around(ring, 2), std::back_inserter(field));
+  }
+  meshes::write_rows(field, run_ / "reference" / "contact_field.csv");
   report();
   const auto dots = points("pressure", "3 mm continuum", "radius [mm]", "contact pressure [kPa]");
   EXPECT_LT(dots.size(), 200u);

@@ -1,0 +1,71 @@
+#include "meshes/press/contact_field.h"
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+namespace fingertip::meshes::inline press {
+
+void ContactPoint::set_force(const Vector3& force) {
+  const Vector3 traction = force / area;
+  normal_traction = traction.dot(normal);
+  shear = traction - normal_traction * normal;
+}
+
+void add_sample(std::span<const ContactPoint> points, int sample, double indentation,
+                std::vector<ContactPoint>& field) {
+  for (const ContactPoint& point : points) {
+    field.push_back(point);
+    field.back().sample = sample;
+    field.back().indentation = indentation;
+  }
+}
+
+std::vector<ContactPoint> unfolded(std::span<const ContactPoint> points, int sectors) {
+  std::vector<ContactPoint> all(points.begin(), points.end());
+  const auto add_images = [&all](int axis) {
+    const std::size_t count = all.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      ContactPoint image = all[i];
+      for (Vector3* vector : {&image.place, &image.shear, &image.normal})
+        (*vector)[axis] = -(*vector)[axis];
+      all.push_back(image);
+    }
+  };
+  if (sectors > 1) add_images(1);
+  if (sectors > 2) add_images(0);
+  return all;
+}
+
+std::vector<ContactPoint> turned_around(const ContactPoint& ring, int count) {
+  std::vector<ContactPoint> all(std::size_t(count), ring);
+  for (int i = 0; i < count; ++i) {
+    ContactPoint& point = all[std::size_t(i)];
+    const Eigen::AngleAxisd turn(2.0 * std::numbers::pi * (i + 0.5) / count, Vector3::UnitZ());
+    point.area = ring.area / count;
+    for (Vector3* vector : {&point.place, &point.shear, &point.normal}) *vector = turn * *vector;
+  }
+  return all;
+}
+
+ContactSums sums_of(std::span<const ContactPoint> points, const Vector3& about) {
+  ContactSums sums;
+  for (const ContactPoint& point : points) {
+    const Vector3 force = point.force();
+    sums.force += force;
+    sums.torque += (point.place - about).cross(force);
+  }
+  return sums;
+}
+
+Vector3 centre_of_pressure(std::span<const ContactPoint> points) {
+  double force = 0.0;
+  Vector3 sum = Vector3::Zero();
+  for (const ContactPoint& point : points) {
+    const double push = point.area * point.normal_traction;
+    force += push;
+    sum += push * point.place;
+  }
+  return sum / force;
+}
+
+}  // namespace fingertip::meshes::inline press
