@@ -21,7 +21,7 @@ using Eigen::Vector2d;
 constexpr std::array<double, 4> reaches = {5.0, 7.0, 10.0, 15.0};
 constexpr int fewest_rings = 4;
 constexpr int nodes_per_ring = 16;  ///< all around a solid's contact, at least
-constexpr int points_around = 24;   ///< for which a ring is told
+constexpr int points_around = 36;   ///< for which a ring is told
 
 Vector2d seen(const meshes::ContactPoint& node) {
   return node.place.head<2>();

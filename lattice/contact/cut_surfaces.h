@@ -27,9 +27,9 @@ class CutSurfaces {
   double energy(const State& state, const RodState& rod) const;
   int touching() const { return parts() * contact_.touching(); }
   int sliding() const { return parts() * contact_.sliding(); }
-  ContactPatch patch() const { return contact_.patch(); }
-  std::vector<PointLoad> point_loads(const State& state) const {
-    return contact_.point_loads(state);
+  meshes::ContactPatch patch() const { return contact_.patch(); }
+  std::vector<TiedPoint> points(const State& state, const meshes::Vector3& travel) const {
+    return contact_.points(state, travel);
   }
   std::vector<std::uint8_t> held() const { return contact_.held(); }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "lattice/contact/contact.h"
-#include "lattice/contact/contact_patch.h"
-#include "lattice/contact/point_load.h"
+#include "lattice/contact/contact_smoothing.h"
+#include "meshes/press/contact_patch.h"
 #include "meshes/press/press_response.h"
 
 namespace fingertip::lattice::inline contact {
@@ -22,9 +22,9 @@ class ParticleSurfaces {
   int touching() const { return contact_.anchored(); }
   int sliding() const { return contact_.sliding(); }
   /// The pressure of particles that touch by themselves is unknown.
-  ContactPatch patch() const { return {contact_.radius(), meshes::unknown}; }
+  meshes::ContactPatch patch() const { return {contact_.radius(), meshes::unknown}; }
   /// None: the contact acts between steps.
-  std::vector<PointLoad> point_loads(const State& /*state*/) const { return {}; }
+  std::vector<TiedPoint> points(const State&, const meshes::Vector3&) const { return {}; }
   std::vector<std::uint8_t> held() const;
 
  private:

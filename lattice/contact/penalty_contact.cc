@@ -336,16 +336,36 @@ void PenaltyContact::forget_near() {
   near_particles_.clear();
 }
 
-std::vector<PointLoad> PenaltyContact::point_loads(const State& state) const {
-  std::vector<PointLoad> found;
+std::vector<TiedPoint> PenaltyContact::points(const State& state, const Vector3& travel) const {
+  const Eigen::Matrix3d& axes = model_->grid.axes;
+  const bool finite = model_->kinematics == Kinematics::finite,
+             free = law_.mode == meshes::ContactMode::frictionless;
+  std::vector<TiedPoint> found;
   for (const std::uint32_t group : near_) {
+    const kernel::ContactMemory& memory = memory_[group];
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      if (!(memory_[group].push.at[lane] > 0.0)) continue;
+      if (!(shape_->groups[group].stiffness.at[lane] > 0.0)) continue;  // repeats the first
       const EmbeddedPoint& tie = model_->outer[shape_->points[group * lanes + lane]];
-      const Vector3 force = {memory_[group].force[0].at[lane], memory_[group].force[1].at[lane],
-                             memory_[group].force[2].at[lane]};
-      found.push_back(
-          {tie.rest + model_->grid.axes * shift(tie, state, 0.0), plane_.turned * force});
+      meshes::ContactPoint& point =
+          found.emplace_back(TiedPoint{{}, tie.corners, tie.weights}).point;
+      const Vector3 place = tie.rest + axes * shift(tie, state, 0.0);
+      point.place = finite ? Vector3(place - travel) : tie.rest;
+      point.normal = finite ? plane_.normal_at(place) : plane_.normal;
+      point.area = seen_area(tie, plane_.normal);
+      if (finite) {
+        Eigen::Matrix<double, 3, 8> moved;
+        for (int c = 0; c < 8; ++c)
+          moved.col(c) = axes * state.displacement.at(tie.corners[std::size_t(c)]);
+        point.area = carried_surface(tie, moved, model_->grid.spacing * axes).norm();
+      }
+      const bool acts = memory.push.at[lane] > 0.0;
+      point.set_force(plane_.turned *
+                      (acts ? Vector3(memory.force[0].at[lane], memory.force[1].at[lane],
+                                      memory.force[2].at[lane])
+                            : Vector3::Zero()));
+      if (free) point.shear.setZero();  // but for round-off it is
+      const bool sticks = acts && !free && memory.sliding.at[lane] == 0.0;
+      point.state = sticks ? meshes::ContactState::stick : meshes::ContactState::slip;
     }
   }
   return found;
@@ -364,7 +384,7 @@ kernel::PatchView PenaltyContact::patch_view() const {
   return view;
 }
 
-ContactPatch PenaltyContact::patch() const {
+meshes::ContactPatch PenaltyContact::patch() const {
   constexpr std::size_t portions = 16;  // the same for any number of threads
   const kernel::PatchView view = patch_view();
   std::array<kernel::PatchSums, portions> part{};
@@ -377,7 +397,7 @@ ContactPatch PenaltyContact::patch() const {
       }
     }
   });
-  ForceMoments sums;
+  meshes::ForceMoments sums;
   for (const kernel::PatchSums& p : part) {
     for (std::size_t i = 0; i < sums.power.size(); ++i) sums.power[i] += p.power[i];
     sums.area += p.area;

@@ -5,9 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "lattice/contact/contact_patch.h"
 #include "lattice/contact/contact_shape.h"
-#include "lattice/contact/point_load.h"
+#include "lattice/contact/contact_smoothing.h"
 #include "lattice/contact/tie_inertia.h"
 #include "lattice/contact/tied_bond.h"
 #include "lattice/kernels/contact_kernel.h"
@@ -16,6 +15,7 @@
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
 #include "lattice/threads/parallel.h"
+#include "meshes/press/contact_patch.h"
 #include "meshes/press/press_protocol.h"
 
 namespace fingertip::lattice::inline contact {
@@ -42,8 +42,8 @@ namespace fingertip::lattice::inline contact {
 /// without slip. For given n its energy in a step is E(s) = ½ k s² up to s_c = mu n/k, mu n (s -
 /// s_c/2) beyond; a concave function of s², so the parabola of curvature E'(s)/s that touches it at
 /// s lies above it everywhere, also where the tie unloads and sticks again: what makes backward
-/// Euler with block-diagonal inertia stable. A tie that slides steadily feels none of it, its force is mu
-/// n.
+/// Euler with block-diagonal inertia stable. A tie that slides steadily feels none of it, its force
+/// is mu n.
 ///
 /// Against an obstacle that is no plane g is that of statics/static_contact.h, and so is its
 /// gradient, along which the ties push.
@@ -82,9 +82,10 @@ class PenaltyContact {
   int touching() const { return touching_; }
   int sliding() const { return sliding_; }  ///< of those touching, in the last step (coulomb)
   /// That the forces of the last add() act on: seen at rest where displacements are small.
-  ContactPatch patch() const;
-  /// What each tie that acts does to the tip, at the last add().
-  std::vector<PointLoad> point_loads(const State& state) const;
+  meshes::ContactPatch patch() const;
+  /// The points near the plane, with the forces of their ties at the last add(): along the world's
+  /// axes, places less `travel`, that of the rod [m], or at small strain at rest.
+  std::vector<TiedPoint> points(const State& state, const meshes::Vector3& travel) const;
   /// Per boundary particle of the model: 1 where a tie that acts hangs on it, 2 if all of
   /// these slide (coulomb).
   std::vector<std::uint8_t> held() const;

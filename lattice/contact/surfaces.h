@@ -23,7 +23,7 @@ namespace fingertip::lattice::inline contact {
 ///   bond_energy, energy      of the bond; of it and, where it is elastic, the contact [J]
 ///   touching, sliding        how many points touch the plane; of these slide (coulomb)
 ///   patch         of the last step; zeros without contact
-///   point_loads   what the plane does to each point that touches it
+///   points        what the plane does to each point near it
 ///   held          per boundary particle of the model: 1 where it sticks to the plane or touches it
 ///                 without friction, 2 where it slides (coulomb), else 0
 ///

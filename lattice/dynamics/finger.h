@@ -132,12 +132,15 @@ class Finger {
   int sliding() const {
     return ask([](const auto& s) { return s.sliding(); });
   }
-  ContactPatch contact_patch() const {
+  meshes::ContactPatch contact_patch() const {
     return ask([](const auto& s) { return s.patch(); });
   }
-  /// Of the last step; none of a published finger.
-  std::vector<PointLoad> point_loads() const {
-    return ask([&](const auto& s) { return s.point_loads(now_.state); });
+  /// The points near the plane, as it acted in the last step, of the part computed: along the
+  /// world's axes, places as if the rod had stayed, or at small strain at rest. None of a published
+  /// finger.
+  std::vector<TiedPoint> tied_points() const {
+    const meshes::Vector3 travel = now_.rod.endpoint() - now_.rod.body().endpoint;
+    return ask([&](const auto& s) { return s.points(now_.state, travel); });
   }
   /// Per boundary particle of the model: 1 where it sticks to the plane or touches it without
   /// friction, 2 where it slides (coulomb), else 0.

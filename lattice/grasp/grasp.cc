@@ -62,19 +62,14 @@ HandSetup with_prescribed_rods(HandSetup hand) {
 
 /// Of a finger's points: sums of GraspRow::point_friction and inward_friction.
 void sum_friction(const Finger& finger, double& magnitudes, double& inward) {
-  const std::vector<PointLoad> loads = finger.point_loads();
-  const Vector3 normal = finger.plane().normal;
-  Vector3 centre = Vector3::Zero();
-  double pushes = 0.0;
-  for (const PointLoad& load : loads) {
-    pushes += load.force.dot(normal);
-    centre += load.force.dot(normal) * load.place;
-  }
-  if (!(pushes > 0.0)) return;
-  centre /= pushes;
-  for (const PointLoad& load : loads) {
-    const Vector3 friction = load.force - load.force.dot(normal) * normal;
-    Vector3 way = centre - load.place;
+  std::vector<meshes::ContactPoint> points;
+  for (const TiedPoint& tied : finger.tied_points())
+    if (tied.touches()) points.push_back(tied.point);
+  if (points.empty()) return;
+  const Vector3 normal = finger.plane().normal, centre = centre_of_pressure(points);
+  for (const meshes::ContactPoint& point : points) {
+    const Vector3 friction = point.area * point.shear;
+    Vector3 way = centre - point.place;
     way -= way.dot(normal) * normal;
     magnitudes += friction.norm();
     if (way.norm() > 0.0) inward += friction.dot(way.normalized());

@@ -1,5 +1,6 @@
 #include "lattice/model/embedded_points.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -75,6 +76,29 @@ EmbeddedPoint tie_to_particle(std::uint32_t particle, const Vector3& rest, const
   embedded.area = area;
   embedded.stiffness = stiffness;
   return embedded;
+}
+
+Vector3 carried_surface(const EmbeddedPoint& point,
+                        const Eigen::Matrix<double, 3, 8>& displacements,
+                        const Eigen::Matrix3d& edges) {
+  Vector3 local = Vector3::Zero();
+  for (int c = 0; c < 8; ++c)
+    for (int d = 0; d < 3; ++d)
+      if ((c >> d & 1) != 0) local[d] += point.weights[std::size_t(c)];
+  // A point beyond its cell goes on as the cell does at its side.
+  local = local.cwiseMax(0.0).cwiseMin(1.0);
+  Eigen::Matrix3d now = edges;  // of the edges
+  for (int c = 0; c < 8; ++c) {
+    for (int d = 0; d < 3; ++d) {
+      double slope = (c >> d & 1) != 0 ? 1.0 : -1.0;
+      for (int e = 0; e < 3; ++e)
+        if (e != d) slope *= (c >> e & 1) != 0 ? local[e] : 1.0 - local[e];
+      now.col(d) += slope * displacements.col(c);
+    }
+  }
+  // J F^-T with F = now edges^-1.
+  const Eigen::Matrix3d gradient = now * edges.inverse();
+  return point.area * gradient.determinant() * gradient.inverse().transpose() * point.normal;
 }
 
 }  // namespace fingertip::lattice::inline model

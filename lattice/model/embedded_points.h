@@ -1,7 +1,9 @@
 /// Points of the tip's true surfaces, embedded among the particles around them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "lattice/model/grid_cells.h"
@@ -28,5 +30,18 @@ EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, dou
 /// `particle` itself as an embedded point.
 EmbeddedPoint tie_to_particle(std::uint32_t particle, const meshes::Vector3& rest,
                               const meshes::Vector3& normal, double area, double stiffness);
+
+/// The surface that a point stands for, at rest, as seen along a unit vector [m²]; at least a
+/// millionth of it, so that there are tractions on what is seen from the side.
+inline double seen_area(const EmbeddedPoint& point, const meshes::Vector3& along) {
+  return point.area * std::max(std::abs(point.normal.dot(along)), 1e-6);
+}
+
+/// Where the corners of its cell have gone by these displacements [m] the surface that a point
+/// stands for, its area times its outward normal [m²]: J F^-T N area, F at the point. `edges`: the
+/// cell's at rest, as columns [m].
+meshes::Vector3 carried_surface(const EmbeddedPoint& point,
+                                const Eigen::Matrix<double, 3, 8>& displacements,
+                                const Eigen::Matrix3d& edges);
 
 }  // namespace fingertip::lattice::inline model

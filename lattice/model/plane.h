@@ -27,6 +27,8 @@ struct PressPlane {
   }
   /// Its axes t1, t2 and n as columns.
   Eigen::Matrix3d axes() const { return (Eigen::Matrix3d() << t1, t2, normal).finished(); }
+  /// Those of fields, right-handed (meshes::ContactPoint): t1, t2 and -n.
+  Eigen::Matrix3d field_axes() const { return (Eigen::Matrix3d() << t1, t2, -normal).finished(); }
 };
 
 PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry);

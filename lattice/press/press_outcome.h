@@ -12,6 +12,7 @@
 #include "lattice/press/press_pictures.h"
 #include "lattice/press/press_setup.h"
 #include "lattice/press/trace.h"
+#include "meshes/press/contact_field.h"
 #include "meshes/press/press_response.h"
 
 namespace fingertip::lattice::inline press {
@@ -37,6 +38,8 @@ struct ElapsedTime {
 struct PressOutcome : PressShapes {
   meshes::PressResponse response;  ///< at the sample depths and evenly in between; of a program
                                    ///< then at the times of PressMotion::samples
+  std::vector<meshes::ContactPoint> contact;  ///< at the samples asked for; none of a published
+                                              ///< finger
   std::vector<TraceRow> trace;
   std::vector<ElapsedTime> elapsed;  ///< one per row of `trace`
   StepReport step;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lattice/contact/contact_smoothing.h"
+
 namespace fingertip::lattice::inline press {
 
 using meshes::PressSample, meshes::Vector3;
@@ -62,7 +64,7 @@ PressSample PressRecorder::sample_between(const PressInstant& end, double fracti
   sample.torque_x = torque.x();
   sample.torque_y = torque.y();
   sample.torque_z = torque.z();
-  const ContactPatch patch = finger_->contact_patch();
+  const meshes::ContactPatch patch = finger_->contact_patch();
   sample.contact_radius = patch.radius;
   sample.max_pressure = patch.max_pressure;
   if (stage == 0)
@@ -122,6 +124,19 @@ void PressRecorder::add_work(const PressInstant& end) {
   outcome_->work_in += std::max(work, 0.0);
 }
 
+/// For the last row, at an indentation of the last step [m].
+void PressRecorder::note_contact(double indentation) {
+  const Vector3 t1 = first_tangent(normal_);
+  const Eigen::Matrix3d to_plane =
+      (Eigen::Matrix3d() << t1, t1.cross(normal_), -normal_).finished().transpose();
+  std::vector<TiedPoint> points = finger_->tied_points();
+  for (TiedPoint& tied : points)
+    for (Vector3* vector : {&tied.point.place, &tied.point.shear, &tied.point.normal})
+      *vector = to_plane * *vector;
+  add_sample(contact_field(points, finger_->contact_patch(), finger_->model().sector.count()),
+             int(outcome_->response.samples().size()), indentation, outcome_->contact);
+}
+
 bool PressRecorder::add_step(const PressInstant& start) {
   plane_impulse_ += finger_->plane_impulse().force.dot(normal_);
   if (std::isnan(outcome_->first_touch_time) && finger_->touching() > 0) {
@@ -133,11 +148,13 @@ bool PressRecorder::add_step(const PressInstant& start) {
     PressSample sample = sample_between(start, (depths_[next_] - previous_.indentation) / way, 0);
     sample.indentation = depths_[next_];
     outcome_->response.append(sample);
+    if (is_sample_[next_] != 0) note_contact(start.indentation);
     passed_sample = passed_sample || is_sample_[next_] != 0;
     ++next_;
   }
   for (; next_later_ < later_.size() && start.time >= later_[next_later_].time; ++next_later_) {
     outcome_->response.append(sample_at(start, later_[next_later_]));
+    note_contact(start.indentation);
     passed_sample = true;
   }
   add_work(start);

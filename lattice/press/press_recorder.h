@@ -47,6 +47,7 @@ class PressRecorder {
  private:
   meshes::PressSample sample_between(const PressInstant& end, double fraction,
                                      std::size_t stage) const;
+  void note_contact(double indentation);
   meshes::PressSample sample_at(const PressInstant& end, const meshes::MotionSample& wanted) const;
   void move(meshes::PressSample& sample,
             std::initializer_list<double meshes::PressSample::*> values, double from,

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "lattice/contact/contact_patch.h"
+#include "lattice/contact/contact_smoothing.h"
 #include "lattice/model/model.h"
 #include "lattice/press/press_pictures.h"
 #include "lattice/statics/cut_lattice.h"
@@ -17,6 +17,7 @@
 #include "lattice/statics/equilibrium.h"
 #include "lattice/statics/static_contact.h"
 #include "meshes/base/files.h"
+#include "meshes/press/contact_patch.h"
 #include "meshes/press/no_equilibrium.h"
 
 namespace fingertip::lattice::inline press {
@@ -81,6 +82,9 @@ class StaticPress {
   VectorXd extrapolated(double place) const;
   bool anchor(State& next) const;
   Wrench on_rod() const;
+  meshes::ContactPatch patch() const {
+    return contact_patch(now_.contact.loaded_points(now_.displacement), body_.sectors);
+  }
   PressSample sample() const;
   FingerPicture drawn();
   void note_slopes();
@@ -247,8 +251,7 @@ Wrench StaticPress::on_rod() const {
 PressSample StaticPress::sample() const {
   const auto [force, torque] = on_rod();
   const PressPlane& plane = now_.contact.plane();
-  const ContactPatch patch =
-      contact_patch(now_.contact.loaded_points(now_.displacement), body_.sectors);
+  const meshes::ContactPatch contact = patch();
   PressSample sample;
   const meshes::PressPose pose = now_.contact.pose();
   sample.indentation = pose.indentation;
@@ -259,7 +262,7 @@ PressSample StaticPress::sample() const {
   sample.torque_x = torque.x();
   sample.torque_y = torque.y();
   sample.torque_z = torque.z();
-  sample.set_contact(patch.radius, patch.max_pressure);
+  sample.set_contact(contact.radius, contact.max_pressure);
   return sample;
 }
 
@@ -273,7 +276,7 @@ FingerPicture StaticPress::drawn() {
   for (std::size_t p = 0; p < body_.rest.size(); ++p)
     particles.moved.emplace_back(now_.displacement.segment<3>(3 * Eigen::Index(p)));
   for (std::size_t i = 0; i < body_.outer.size(); ++i) {
-    if (!(now_.contact.pressure(i, now_.displacement) > 0.0)) continue;
+    if (!now_.contact.touches(i, now_.displacement)) continue;
     for (std::size_t c = 0; c < 8; ++c)
       if (body_.outer[i].weights[c] != 0.0) particles.held[body_.outer[i].corners[c]] = 1;
   }
@@ -304,10 +307,9 @@ void StaticPress::note_slopes() {
 }
 
 void StaticPress::note_contact() {
-  outcome_.contact.clear();
-  for (std::size_t i = 0; i < body_.outer.size(); ++i)
-    outcome_.contact.push_back({body_.outer[i].rest, position(body_.outer[i], now_.displacement),
-                                now_.contact.pressure(i, now_.displacement)});
+  add_sample(contact_field(now_.contact.points(now_.displacement), patch(), body_.sectors),
+             int(outcome_.response.samples().size()), now_.contact.pose().indentation,
+             outcome_.contact);
 }
 
 void StaticPress::report() {

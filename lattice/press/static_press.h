@@ -8,18 +8,13 @@
 #include "lattice/press/press_setup.h"
 #include "lattice/press/press_slopes.h"
 #include "lattice/statics/lattice_body.h"
+#include "meshes/press/contact_field.h"
 #include "meshes/press/press_response.h"
 
 namespace fingertip::lattice::inline press {
 
-/// The state of an outer point at the end of a press.
-struct StaticContactPoint {
-  meshes::Vector3 rest, deformed;  ///< [m]
-  double pressure = 0.0;  ///< along the plane's normal, per rest area [Pa]; 0: not touching
-};
-
-/// Counts and contact points are those of the part computed, 1/sectors of the tip; forces, torques
-/// and radii are the whole tip's. Of the response's columns time and force_error stay unknown.
+/// Counts are those of the part computed, 1/sectors of the tip; forces, torques, radii and contact
+/// points are the whole tip's. Of the response's columns time and force_error stay unknown.
 /// contact_radius and max_pressure are those of contact_patch: true ones at finite strain, at small
 /// strain those of the shape at rest. How far off they are stands in
 /// lattice/MEASUREMENTS.md (contact).
@@ -29,9 +24,9 @@ struct StaticOutcome : PressShapes {  // empty unless it was to be pictured
   int sectors = 1;
   double volume = 0.0, exact_volume = 0.0;  ///< of the rubber, whole tip [m³]
   int steps = 0, newton_iterations = 0, factorisations = 0, gradients = 0;
-  double smallest_jacobian = 1.0;           ///< over all cells and steps
-  double wall_time = 0.0;                   ///< [s]
-  std::vector<StaticContactPoint> contact;  ///< at the last sample finished
+  double smallest_jacobian = 1.0;             ///< over all cells and steps
+  double wall_time = 0.0;                     ///< [s]
+  std::vector<meshes::ContactPoint> contact;  ///< of every sample finished
 };
 
 /// The lattice of `setup` as lists: the published model on its own particles (sectors = 1), the

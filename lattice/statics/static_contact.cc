@@ -64,12 +64,6 @@ Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement
   return outer.stiffness * (stretch + (push - depth) * now.normal);
 }
 
-double StaticContact::pressure(std::size_t point, const VectorXd& displacement) const {
-  const Vector3 normal =
-      stick_ ? anchor_normal_[point] : gap_and_normal(point, displacement).normal;
-  return tie_force(point, displacement).dot(normal) / body_->outer[point].area;
-}
-
 double StaticContact::energy(const VectorXd& displacement) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
@@ -157,8 +151,7 @@ int StaticContact::release_pulled(const VectorXd& displacement) {
   int count = 0;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (!anchored_[i] || released_[i]) continue;
-    const double push = tie_force(i, displacement).dot(anchor_normal_[i]);
-    if (push >= -gap_noise * body_->outer[i].stiffness) continue;
+    if (anchored_push(i, displacement) >= -gap_noise * body_->outer[i].stiffness) continue;
     anchored_[i] = 0;
     released_[i] = 1;
     ++count;
@@ -178,16 +171,46 @@ PlaneReaction StaticContact::reaction(const VectorXd& displacement, const Vector
   return result;
 }
 
-std::vector<LoadedPoint> StaticContact::loaded_points(const VectorXd& displacement) const {
-  std::vector<LoadedPoint> points;
+double StaticContact::area(std::size_t point, const VectorXd& displacement) const {
+  const EmbeddedPoint& outer = body_->outer[point];
+  if (!body_->finite) return seen_area(outer, plane_.normal);
+  const auto edge = [&](std::size_t c) -> Vector3 {
+    return body_->rest[outer.corners[c]] - body_->rest[outer.corners[0]];
+  };
+  const Matrix3d edges = (Matrix3d() << edge(1), edge(2), edge(4)).finished();
+  if (edges.isZero(0.0)) return outer.area;  // a particle itself
+  Eigen::Matrix<double, 3, 8> moved;
+  for (int c = 0; c < 8; ++c)
+    moved.col(c) = displacement.segment<3>(3 * Eigen::Index(outer.corners[std::size_t(c)]));
+  return carried_surface(outer, moved, edges).norm();
+}
+
+std::vector<TiedPoint> StaticContact::points(const VectorXd& displacement) const {
+  const Matrix3d to_plane = plane_.field_axes().transpose();
+  std::vector<TiedPoint> points;
+  for (std::size_t i = 0; i < body_->outer.size(); ++i) {
+    const EmbeddedPoint& outer = body_->outer[i];
+    points.push_back({{}, outer.corners, outer.weights});
+    meshes::ContactPoint& point = points.back().point;
+    point.place = to_plane * (body_->finite ? position(outer, displacement) : outer.rest);
+    point.normal = to_plane * gap_and_normal(i, displacement).normal;
+    point.area = area(i, displacement);
+    point.set_force(to_plane * tie_force(i, displacement));
+    point.state = stick_ ? meshes::ContactState::stick : meshes::ContactState::slip;
+    if (!stick_) point.shear.setZero();  // but for round-off it is
+  }
+  return points;
+}
+
+std::vector<meshes::LoadedPoint> StaticContact::loaded_points(const VectorXd& displacement) const {
+  std::vector<meshes::LoadedPoint> points;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     const double push = tie_force(i, displacement).dot(plane_.normal);
     if (!(push > 0.0)) continue;
     const EmbeddedPoint& outer = body_->outer[i];
     const Vector3 place = body_->finite ? position(outer, displacement) : outer.rest;
-    points.push_back({{place.dot(plane_.t1), place.dot(plane_.t2)},
-                      push,
-                      outer.area * std::abs(outer.normal.dot(plane_.normal))});
+    points.push_back(
+        {{place.dot(plane_.t1), place.dot(plane_.t2)}, push, seen_area(outer, plane_.normal)});
   }
   return points;
 }

@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice/contact/contact_patch.h"
+#include "lattice/contact/contact_smoothing.h"
 #include "lattice/model/plane.h"
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/lattice_body.h"
+#include "meshes/press/contact_patch.h"
 #include "meshes/press/press_protocol.h"
 #include "meshes/shape/geometry.h"
 
@@ -76,16 +77,22 @@ class StaticContact {
   bool anchored(std::size_t point) const { return anchored_[point] != 0; }
   void begin_step() { released_.assign(released_.size(), 0); }
 
+  /// Whether the obstacle acts on an outer point.
+  bool touches(std::size_t point, const Eigen::VectorXd& displacement) const;
   /// Force of the plane on an outer point [N].
   meshes::Vector3 tie_force(std::size_t point, const Eigen::VectorXd& displacement) const;
-  /// Force of the obstacle along its normal on an outer point per its area at rest [Pa].
-  double pressure(std::size_t point, const Eigen::VectorXd& displacement) const;
+  /// Stick: along the obstacle's normal where the point is anchored [N].
+  double anchored_push(std::size_t point, const Eigen::VectorXd& displacement) const {
+    return tie_force(point, displacement).dot(anchor_normal_[point]);
+  }
   /// Sum of the ties' forces; moments at positions of rest at small strain, at present ones at
   /// finite strain.
   PlaneReaction reaction(const Eigen::VectorXd& displacement, const meshes::Vector3& about) const;
   /// The outer points that the plane pushes, seen along its normal: at finite strain where they
   /// are, at small strain at rest; areas at rest.
-  std::vector<LoadedPoint> loaded_points(const Eigen::VectorXd& displacement) const;
+  std::vector<meshes::LoadedPoint> loaded_points(const Eigen::VectorXd& displacement) const;
+  /// All outer points of the part computed, along the field's axes.
+  std::vector<TiedPoint> points(const Eigen::VectorXd& displacement) const;
 
  private:
   /// Where a point is [m]: from the plane's point, itself and at rest.
@@ -104,7 +111,8 @@ class StaticContact {
   }
   /// Derivative of the normal with respect to the place [1/m].
   Eigen::Matrix3d bend(const Relative& point) const;
-  bool touches(std::size_t point, const Eigen::VectorXd& displacement) const;
+  /// At small strain as seen along the plane's normal [m²].
+  double area(std::size_t point, const Eigen::VectorXd& displacement) const;
 
   const LatticeBody* body_;
   PressPlane plane_;

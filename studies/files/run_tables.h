@@ -30,19 +30,6 @@ struct BoundarySpringRow {
 };
 FINGERTIP_FIELDS(BoundarySpringRow, i, j);
 
-/// contact.csv: a point of the true surface that the obstacle holds.
-struct ContactRow {
-  meshes::Vector3 rest = meshes::Vector3::Zero();
-  meshes::Vector3 deformed = meshes::Vector3::Zero();
-  double pressure = meshes::unknown;
-};
-consteval auto fields_of(const ContactRow*) {
-  return FINGERTIP_ALL_MEMBERS(ContactRow, rest, deformed, pressure)
-      .in("m", "rest deformed")
-      .in("Pa", "pressure")
-      .called("rest", "x,y,z");
-}
-
 /// snapshots.csv: rod and plane at a moment of a press.
 struct SnapshotRow {
   std::string moment;

@@ -87,31 +87,6 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOu
   return summary;
 }
 
-void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path& folder,
-                   const JobContext& context) {
-  setup.threads = setup.threads > 0
-                      ? context.threads
-                      : lattice::fastest_threads(lattice::moving_particles(setup), context.threads);
-  std::optional<Movie> movie;
-  if (movie_pictures > 0) movie.emplace(folder / "movie", setup.geometry);
-  const auto show = [&](const lattice::BoundaryView& view, const lattice::FingerPicture& picture) {
-    movie->add(view, picture);
-  };
-  const lattice::ForceEstimator estimator(setup);
-  Journal<lattice::PressOutcome> journal(
-      folder, context, "pressing",
-      [&](const lattice::PressOutcome& outcome, const std::string& status) {
-        with_estimated_error(outcome.response, estimator).write_csv(folder / "response.csv");
-        meshes::write_rows(outcome.trace, folder / "trace.csv");
-        meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
-      });
-  const lattice::PressOutcome outcome = journal.run([&](const lattice::PressObserver& observe) {
-    return lattice::run_press(setup, observe, {movie_pictures, show});
-  });
-  write_shapes(outcome, folder);
-  context.log("step " + meshes::to_text(outcome.step.step) + " s: " + outcome.step.explanation);
-}
-
 PressSummary summary_of(const lattice::PressSetup& setup, const lattice::StaticOutcome& outcome,
                         const std::string& status) {
   PressSummary summary = press_summary_head(setup, status);
@@ -126,27 +101,58 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::StaticO
   return summary;
 }
 
-void write_contact(const lattice::StaticOutcome& outcome, const fs::path& folder) {
-  std::vector<ContactRow> rows;
-  for (const lattice::StaticContactPoint& point : outcome.contact)
-    rows.push_back({point.rest, point.deformed, point.pressure});
-  meshes::write_rows(rows, folder / "contact.csv");
+/// Writes what a press has so far.
+template <typename Outcome>
+class PressWriter {
+ public:
+  PressWriter(const lattice::PressSetup& setup, fs::path folder)
+      : setup_(&setup), estimator_(setup), folder_(std::move(folder)) {}
+
+  void operator()(const Outcome& outcome, const std::string& status) {
+    with_estimated_error(outcome.response, estimator_).write_csv(folder_ / "response.csv");
+    // Long, and the same between samples.
+    if (contact_points_ != outcome.contact.size())
+      meshes::write_rows(outcome.contact, folder_ / "contact_field.csv");
+    contact_points_ = outcome.contact.size();
+    if constexpr (requires { outcome.trace; })
+      meshes::write_rows(outcome.trace, folder_ / "trace.csv");
+    meshes::write_json_file(summary_of(*setup_, outcome, status), folder_ / "summary.json");
+  }
+
+ private:
+  const lattice::PressSetup* setup_;
+  lattice::ForceEstimator estimator_;
+  fs::path folder_;
+  std::size_t contact_points_ = 0;
+};
+
+void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path& folder,
+                   const JobContext& context) {
+  setup.threads = setup.threads > 0
+                      ? context.threads
+                      : lattice::fastest_threads(lattice::moving_particles(setup), context.threads);
+  std::optional<Movie> movie;
+  if (movie_pictures > 0) movie.emplace(folder / "movie", setup.geometry);
+  const auto show = [&](const lattice::BoundaryView& view, const lattice::FingerPicture& picture) {
+    movie->add(view, picture);
+  };
+  Journal<lattice::PressOutcome> journal(folder, context, "pressing",
+                                         PressWriter<lattice::PressOutcome>(setup, folder));
+  const lattice::PressOutcome outcome = journal.run([&](const lattice::PressObserver& observe) {
+    return lattice::run_press(setup, observe, {movie_pictures, show});
+  });
+  write_shapes(outcome, folder);
+  context.log("step " + meshes::to_text(outcome.step.step) + " s: " + outcome.step.explanation);
 }
 
 void run_static_job(lattice::PressSetup setup, const fs::path& folder, const JobContext& context) {
   setup.threads = context.threads;
-  const lattice::ForceEstimator estimator(setup);
-  Journal<lattice::StaticOutcome> journal(
-      folder, context, "pressing",
-      [&](const lattice::StaticOutcome& outcome, const std::string& status) {
-        with_estimated_error(outcome.response, estimator).write_csv(folder / "response.csv");
-        meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
-      },
-      std::chrono::milliseconds::zero());
+  Journal<lattice::StaticOutcome> journal(folder, context, "pressing",
+                                          PressWriter<lattice::StaticOutcome>(setup, folder),
+                                          std::chrono::milliseconds::zero());
   const lattice::StaticOutcome outcome = journal.run([&](const lattice::StaticObserver& observe) {
     return lattice::run_static_press(setup, observe, true);
   });
-  write_contact(outcome, folder);
   write_shapes(outcome, folder);
 }
 

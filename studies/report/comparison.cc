@@ -3,8 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ostream>
+#include <utility>
 
 #include "meshes/tables/table_rows.h"
 #include "studies/report/chapters/press/press_chapters.h"
@@ -261,15 +263,16 @@ std::vector<std::string> rejected_curves(const Comparison& comparison) {
   return found;
 }
 
-std::string screen_text(const Comparison& comparison, const Chapter& chapter) {
+std::string screen_text(const Comparison& comparison, const std::vector<Chapter>& chapters) {
   const std::vector<ComparedCurve>& curves = comparison.curves;
   std::string text;
   for (const std::string& reason : rejected_curves(comparison))
     text += "NOT ACCEPTED: " + in_shown_units(reason, Spelling::terminal) + "\n";
-  text += tables_text(chapter, {"differences"});
+  text += tables_text(chapters.front(), {"differences"});
   for (std::size_t i = 1; i < curves.size(); ++i)
     if (const double l2 = overall(curves[i], curves.front()).l2; !std::isnan(l2))
       text += fmt::format("relative L2 difference of {}: {:.2f} %\n", curves[i].label, 100.0 * l2);
+  for (const Chapter& chapter : chapters) text += tables_text(chapter, {"contact"});
   const Table lateral = lateral_table(curves), following = following_table(comparison);
   if (!lateral.rows.empty())
     text += shown_units().force.label("lateral force at full depth") + "\n" + table_text(lateral);
@@ -277,6 +280,38 @@ std::string screen_text(const Comparison& comparison, const Chapter& chapter) {
   for (const ComparisonRemark& remark : comparison.remarks)
     text += (remark.meaningless ? "WARNING: " : "note: ") + remark.text + "\n";
   return text;
+}
+
+std::vector<RunContact> contacts_of(const Comparison& comparison) {
+  std::vector<RunContact> contacts;
+  for (const ComparedCurve& curve : comparison.curves)
+    contacts.push_back({curve.label, curve.style, &curve.response, &curve.contact});
+  return contacts;
+}
+
+/// A row per depth, of each run but the first a column per difference.
+void write_contacts(const Comparison& comparison, const fs::path& file) {
+  const std::vector<ContactsAtDepth> depths = contacts_at_depths(contacts_of(comparison));
+  if (depths.empty()) return;
+  using meshes::ContactDifference;
+  constexpr std::array<std::pair<const char*, double ContactDifference::*>, 6> columns{
+      {{"pressure_l2", &ContactDifference::pressure_l2},
+       {"shear_l2", &ContactDifference::shear_l2},
+       {"largest_pressure", &ContactDifference::peak},
+       {"radius", &ContactDifference::radius},
+       {"spread", &ContactDifference::spread},
+       {"centre [m]", &ContactDifference::centre}}};
+  std::vector<Cells> lines{{"indentation [m]"}};
+  for (std::size_t i = 1; i < comparison.curves.size(); ++i)
+    for (const auto& [name, value] : columns)
+      lines.front().push_back(meshes::csv_cell(comparison.curves[i].label + " " + name));
+  for (const ContactsAtDepth& here : depths) {
+    Cells& cells = lines.emplace_back(Cells{meshes::to_text(here.depth)});
+    for (std::size_t i = 1; i < here.differences.size(); ++i)
+      for (const auto& [name, value] : columns)
+        cells.push_back(meshes::to_text(here.differences[i].*value));
+  }
+  write_lines(lines, file);
 }
 
 Page comparison_page(const Comparison& comparison, FolderReader& reader) {
@@ -306,6 +341,7 @@ Page comparison_page(const Comparison& comparison, FolderReader& reader) {
     page.rejected.push_back(as_shown(reason));
   page.answer = summary_sentence(comparison);
   page.chapters.push_back(written(std::move(chapter)));
+  page.chapters.push_back(reader.attempt([&] { return contact_chapter(contacts_of(comparison)); }));
   std::vector<fs::path> folders;
   for (const ComparedCurve& curve : curves) folders.push_back(curve.folder);
   const std::vector<MovingPress> presses = moving_presses(folders, reader);
@@ -324,7 +360,8 @@ ComparisonResult write_comparison(const std::vector<fs::path>& runs, const fs::p
   publish(page, out_folder, "comparison.html");
   write_csv(comparison, out_folder / "comparison.csv");
   write_following(comparison, out_folder / "comparison_following.csv");
-  return {screen_text(comparison, page.chapters.front()), reader.damage()};
+  write_contacts(comparison, out_folder / "comparison_contact.csv");
+  return {screen_text(comparison, page.chapters), reader.damage()};
 }
 
 }  // namespace fingertip::studies::report

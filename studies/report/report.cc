@@ -29,7 +29,7 @@ std::vector<NotRun> missing_parts(const RunData& run) {
   need(!run.convergence.empty(), "Forces of the continuum on its sequence of meshes",
        "reference/convergence.csv");
   need(!run.section.empty(), "Picture of the continuum's mesh", "reference/section.csv");
-  need(!run.contact_field.empty(), "Contact pressure of the continuum",
+  need(!run.reference_contact.empty(), "Contact pressure of the continuum",
        "reference/contact_field.csv");
   need(!run.reference_job.empty(), "Hertz's contact beside the continuum's", "reference/job.json");
   need(!run.verification.empty(), "Verification of the continuum's code",
@@ -156,7 +156,8 @@ class PageMaker {
   Page core_page() {
     Makers chapters;
     for (Chapter (*const chapter)(const RunData&) :
-         {static_cast<Chapter (*)(const RunData&)>(force_chapter), control_chapter,
+         {static_cast<Chapter (*)(const RunData&)>(force_chapter),
+          static_cast<Chapter (*)(const RunData&)>(contact_chapter), control_chapter,
           snapshots_chapter, elasticity_chapter, pictures_chapter, published_chapter,
           equilibrium_chapter, reasons_chapter, continuum_chapter, verification_chapter,
           cost_chapter})
@@ -227,7 +228,7 @@ class PageMaker {
         "Soft fingertip: a press under its controller",
         "A mass-spring fingertip pressed against a plane",
         [&] { return joined(forces, control_answer(presses)); },
-        {[&] { return press_chapter(press.response, {}, press.trace); },
+        {[&] { return press_chapter(press.response, press.trace); }, [&] { return own_contact(); },
          [&] { return program_chapter(press.response, press); },
          [&] {
            return real_time_chapter(
@@ -236,13 +237,17 @@ class PageMaker {
          [&] { return control_chapter(presses); }, [&] { return snapshots_chapter(presses); }});
   }
 
+  Chapter own_contact() {
+    return contact_chapter({{"", numbered_style(0), &run_.response, &run_.contact}});
+  }
+
   /// The run of a static `press`.
   Page static_page() {
     const std::vector<MovingPress> presses{own_press()};
     return made("Soft fingertip: a press at rest",
                 "A mass-spring fingertip in equilibrium with what it touches",
                 [&] { return press_answer(run_.response, presses.front().summary); },
-                {[&] { return press_chapter(run_.response, run_.contact); },
+                {[&] { return press_chapter(run_.response); }, [&] { return own_contact(); },
                  [&] { return program_chapter(run_.response, presses.front()); },
                  [&] { return sliding_chapter(run_.response); },
                  [&] { return snapshots_chapter(presses); }});
@@ -253,7 +258,8 @@ class PageMaker {
     return made(
         "Soft fingertip: the continuum", "A deal.II continuum pressed on its obstacle",
         [&] { return press_answer(run_.reference, {}); },
-        {[&] { return force_chapter(run_); }, [&] { return program_chapter(run_.reference, {}); },
+        {[&] { return force_chapter(run_); }, [&] { return contact_chapter(run_); },
+         [&] { return program_chapter(run_.reference, {}); },
          [&] { return sliding_chapter(run_.reference); }, [&] { return continuum_chapter(run_); },
          [&] { return pictures_chapter(run_); }, [&] { return cost_chapter(run_); }});
   }

@@ -77,6 +77,11 @@ class Response(Run):
         """trace.csv of a press in time, once per control period."""
         return self.table("trace") if (self.folder / "trace.csv").exists() else None
 
+    @cached_property
+    def contact(self) -> Table | None:
+        """contact_field.csv: pressure, shear and state of what touches, `sample` by sample (from 1)."""
+        return self.table("contact_field") if (self.folder / "contact_field.csv").exists() else None
+
     @property
     def indentation(self) -> np.ndarray:
         """[m]"""

@@ -167,6 +167,32 @@ std::string axis(const Panel& panel, bool vertical) {
   return text + axis_range(name, range, base != 0);
 }
 
+/// The data and the item of a plot.
+struct MapScript {
+  std::string data, item;
+};
+MapScript map_script(const HeatMap& map, std::size_t index) {
+  const std::string block = fmt::format("$p{}map", index);
+  MapScript script{
+      "set palette defined " +
+          std::string(map.signed_values
+                          ? "(-1 '#0072B2', -0.5 '#9ecae1', 0 '#ffffff', 0.5 '#fdae6b', "
+                            "1 '#D55E00')"
+                          : "(0 '#f7fbff', 0.35 '#9ecae1', 0.7 '#3182bd', 1 '#08306b')"),
+      block + " using 1:2:3 with image notitle"};
+  script.data += fmt::format("\nset cbrange [{:.8g}:{:.8g}]\nset cblabel {}\nset colorbox\n",
+                             map.values.from, map.values.to, gnuplot_string(map.label));
+  script.data += block + " << EOD\n";
+  const GridFunction& f = map.function;
+  for (std::size_t i = 0; i < f.x.size(); ++i)
+    for (std::size_t j = 0; j < f.y.size(); ++j)
+      script.data += std::isfinite(f.values[i][j])
+                         ? fmt::format("{:.6g} {:.6g} {:.5g}\n", f.x[i], f.y[j], f.values[i][j])
+                         : fmt::format("{:.6g} {:.6g} NaN\n", f.x[i], f.y[j]);
+  script.data += "EOD\n";
+  return script;
+}
+
 std::string panel_script(const Panel& panel, std::size_t index) {
   std::string text = "unset object\nunset arrow\nunset label\nunset logscale\n";
   text += "set title " + gnuplot_string(panel.title) + " offset 0,-0.5\n";
@@ -178,12 +204,17 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   text += panel.bare ? "unset border\nunset xtics\nunset ytics\nunset grid\n" : "";
   text += decorations(panel);
   const auto seen = [&](const Series& series) { return visible(panel, series); };
-  if (std::none_of(panel.series.begin(), panel.series.end(), seen)) {
+  if (!panel.map && std::none_of(panel.series.begin(), panel.series.end(), seen)) {
     // An empty panel keeps its place in the layout.
     return text + "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\n" +
            tell_axes;
   }
   std::string plot;
+  if (panel.map) {
+    const MapScript map = map_script(*panel.map, index);
+    text += map.data;
+    plot = "plot " + map.item;
+  }
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const bool legend_only = panel.series[i].legend_only;
     if (!legend_only && !seen(panel.series[i])) continue;
@@ -202,11 +233,14 @@ std::string panel_script(const Panel& panel, std::size_t index) {
 std::string layout(const Figure& figure, int columns, int rows) {
   const double w = figure.width, h = figure.height;
   const bool shared = columns == 1;
+  // Where a scale of colours stands beside each panel.
+  const double scale =
+      std::ranges::any_of(figure.panels, [](const Panel& p) { return p.map.has_value(); }) ? 80 : 0;
   return fmt::format(
       "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen "
       "{:.4f},{:.4f}\n",
       rows, columns, 100 / w, 1.0 - figure.right_margin / w, 66 / h, 1.0 - (shared ? 14 : 46) / h,
-      106 / w, (shared ? 34 : 92) / h);
+      (106 + scale) / w, (shared ? 34 : 92) / h);
 }
 
 std::string script(const Figure& figure, const std::string& svg) {

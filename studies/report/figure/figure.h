@@ -10,6 +10,7 @@
 
 #include "meshes/tables/file_fields.h"
 #include "studies/files/shown_units.h"
+#include "studies/report/figure/contours.h"
 
 namespace fingertip::studies::report::inline figure {
 
@@ -125,6 +126,14 @@ struct Surface {
   Range values = {0.0, 1.0};  ///< of the colours; from < to
 };
 
+/// A function of x and y as colours: white where it is unknown.
+struct HeatMap {
+  GridFunction function;       ///< valid()
+  Range values = {};           ///< of the colours; from < to
+  std::string label;           ///< of the values, with their unit
+  bool signed_values = false;  ///< colours for both signs, white at zero
+};
+
 /// One pair of axes.
 struct Panel {
   std::string title = {}, x_label = {}, y_label = {};  ///< labels carry their unit in brackets
@@ -143,6 +152,7 @@ struct Panel {
   /// In place of series. All panels of a figure have one or none has; they fill the columns row by
   /// row.
   std::optional<Surface> surface = std::nullopt;
+  std::optional<HeatMap> map = std::nullopt;  ///< behind the series
 };
 
 /// Panel::key of a legend above the axes.

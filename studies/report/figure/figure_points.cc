@@ -54,7 +54,7 @@ ordered_json series_of(const Figure& figure, std::size_t index) {
   const Panel& panel = figure.panels[index];
   const std::string letter = figure.panels.size() > 1 ? std::string(1, char('a' + index)) : "";
   ordered_json all = ordered_json::array();
-  int item = 0;
+  int item = panel.map ? 1 : 0;
   const auto next_id = [&] { return fmt::format("{}_plot_{}{}", figure.name, ++item, letter); };
   for (const Series& series : panel.series) {
     if (!series.legend_only && !visible(panel, series)) continue;
@@ -94,6 +94,7 @@ void write_points(const Figure& figure, const fs::path& file) {
   for (const Panel& panel : figure.panels) {
     column(panel.x_label), column(panel.y_label);
     if (panel.surface) column(panel.surface->z_label), column(panel.surface->value_label);
+    if (panel.map) column(panel.map->label);
   }
   meshes::write_atomically(file, [&](std::ostream& out) {
     out << "panel,series";
@@ -113,6 +114,16 @@ void write_points(const Figure& figure, const fs::path& file) {
         for (std::size_t i = 0; i < series.x.size(); ++i)
           write(panel, series.key.empty() ? series.label : series.key,
                 {{panel.x_label, series.x[i]}, {panel.y_label, series.y[i]}});
+      }
+      if (panel.map) {
+        const GridFunction& f = panel.map->function;
+        for (std::size_t i = 0; i < f.x.size(); ++i)
+          for (std::size_t j = 0; j < f.y.size(); ++j)
+            if (std::isfinite(f.values[i][j]))
+              write(panel, panel.title,
+                    {{panel.x_label, f.x[i]},
+                     {panel.y_label, f.y[j]},
+                     {panel.map->label, f.values[i][j]}});
       }
       if (!panel.surface) continue;
       for (const auto& row : panel.surface->rows) {

@@ -50,6 +50,7 @@ std::vector<ComparedCurve> read_curves(const fs::path& folder, FolderReader& rea
                          read_condition(place, reader),
                          read_rejected(place, reader),
                          reader.response(place / "response.csv"),
+                         reader.rows<meshes::ContactPoint>(place / "contact_field.csv"),
                          {}};
   };
   if (fs::exists(folder / "response.csv")) return {curve(folder, label, label)};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "meshes/press/contact_field.h"
 #include "meshes/press/press_response.h"
 #include "studies/files/folder_reader.h"
 #include "studies/files/press_condition.h"
@@ -23,6 +24,7 @@ struct ComparedCurve {
   std::optional<PressCondition> condition;
   std::vector<std::string> rejected;  ///< why the fit of what was pressed was not accepted
   meshes::PressResponse response;
+  std::vector<meshes::ContactPoint> contact;
   Style style;
 
   double first_depth() const { return response.samples().front().indentation; }

@@ -36,6 +36,7 @@ ModelData read_model(const fs::path& folder, const std::string& name, const Mode
   model.calibration = reader.take<calibration::ModuliFile>(
       reader.json(folder / ("calibration_" + name) / "calibration.json"));
   model.response = reader.response(folder / name / "response.csv");
+  model.contact = reader.rows<meshes::ContactPoint>(folder / name / "contact_field.csv");
   return model;
 }
 
@@ -206,7 +207,7 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   take_summary(run, reader);
   run.parameters = reader.text(folder / "parameters.toml");
   run.response = reader.response(folder / "response.csv");
-  run.contact = reader.rows<ContactRow>(folder / "contact.csv");
+  run.contact = reader.rows<meshes::ContactPoint>(folder / "contact_field.csv");
   run.modes = reader.attempt([&] { return vibration_modes(reader.csv(folder / "modes.csv")); });
   const fs::path continuum = is_continuum(folder) ? folder : folder / "reference";
   if (continuum != folder) reader.note_missing(continuum);
@@ -217,7 +218,7 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
       reader.json(folder / "verification" / "verification.json"));
   run.convergence = reader.rows<fem_reference::ConvergenceRow>(continuum / "convergence.csv");
   run.section = reader.rows<fem_reference::SectionRow>(continuum / "section.csv");
-  run.contact_field = reader.rows<meshes::ContactPoint>(continuum / "contact_field.csv");
+  run.reference_contact = reader.rows<meshes::ContactPoint>(continuum / "contact_field.csv");
   run.cubes = reader.rows<CubeRow>(folder / "cubes.csv");
   run.published_study = reader.rows<PublishedStudyRow>(folder / "published_study.csv");
   run.equilibrium_study = reader.rows<EquilibriumStudyRow>(folder / "equilibrium_study.csv");

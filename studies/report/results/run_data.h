@@ -101,6 +101,7 @@ struct ModelData : PressFiles {
   double real_time_factor = meshes::unknown;  ///< simulated over wall time
   calibration::ModuliFile calibration;        ///< calibration_NAME/calibration.json, or empty
   meshes::PressResponse response;             ///< empty when absent
+  std::vector<meshes::ContactPoint> contact;
 
   /// Relative force error at the last depth reached; NaN when there is none.
   double last_force_error() const;
@@ -122,13 +123,13 @@ struct RunData {
   fem_reference::RunSummary continuum;  ///< reference/summary.json; its own of `reference`
   JsonEntry reference_job;              ///< reference/job.json, what the continuum was asked
   fem_reference::VerificationFile verification;
-  meshes::PressResponse response;   ///< of a press itself
-  std::vector<ContactRow> contact;  ///< of a static press
+  meshes::PressResponse response;             ///< of a press itself
+  std::vector<meshes::ContactPoint> contact;  ///< of a press itself
   std::vector<VibrationMode> modes;
   meshes::PressResponse reference;  ///< empty when the continuum was not run
   std::vector<fem_reference::ConvergenceRow> convergence;
   std::vector<fem_reference::SectionRow> section;
-  std::vector<meshes::ContactPoint> contact_field;  ///< of the continuum
+  std::vector<meshes::ContactPoint> reference_contact;  ///< of the continuum
   std::vector<CubeRow> cubes;
   std::vector<PublishedStudyRow> published_study;
   std::vector<EquilibriumStudyRow> equilibrium_study;

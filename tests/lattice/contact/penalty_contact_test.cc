@@ -180,8 +180,8 @@ void expect_static_contact(const Scene& s) {
           << name(mode);
     }
     EXPECT_NEAR(moving.energy(), resting.energy(u), 1e-9 * moving.energy()) << name(mode);
-    const lattice::ContactPatch patch = moving.patch(),
-                                expected = lattice::contact_patch(resting.loaded_points(u));
+    const meshes::ContactPatch patch = moving.patch(),
+                               expected = contact_patch(resting.loaded_points(u));
     EXPECT_NEAR(patch.radius, expected.radius, 1e-9 * expected.radius) << name(mode);
     EXPECT_NEAR(patch.max_pressure, expected.max_pressure, 1e-9 * expected.max_pressure);
     EXPECT_GT(patch.max_pressure, 0.0);

@@ -54,18 +54,17 @@ std::vector<double> depths(double deepest_cm) {
   return samples;
 }
 
-/// A press and which points touched at every sample.
+/// A press and how many points touched up to every sample.
 struct Path {
   lattice::StaticOutcomeWithSlopes press;
-  std::vector<std::vector<bool>> touching;
+  std::vector<std::size_t> touching;
 };
 
 Path path_of(const PressSetup& setup, const std::vector<PressParameter>& parameters) {
   Path path;
   path.press = lattice::run_static_press_with_slopes(
       setup, parameters, [&](const lattice::StaticOutcome& now, double) {
-        auto& touching = path.touching.emplace_back();
-        for (const auto& point : now.contact) touching.push_back(point.pressure != 0.0);
+        path.touching.push_back(now.contact.size());
         return true;
       });
   return path;

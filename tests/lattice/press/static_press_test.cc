@@ -198,15 +198,10 @@ TEST(StaticPress, BondAndPlaneBalance) {
     setup.protocol.tilt = 0.25;
     const auto body = body_in_sectors(setup, 2);
     const auto outcome = lattice::run_static_press(setup, body);
-    const Vector3 n(-std::sin(0.25), 0.0, -std::cos(0.25));
-    double force = 0.0, moment = 0.0;
-    for (std::size_t i = 0; i < body.outer.size(); ++i) {
-      const auto& point = outcome.contact[i];
-      const Vector3 push = 2.0 * point.pressure * body.outer[i].area * n;
-      const Vector3 place = kinematics == Kinematics::finite ? point.deformed : point.rest;
-      force += push.dot(n);
-      moment += (place - setup.geometry.rod_endpoint()).cross(push).y();
-    }
+    const auto plane = lattice::press_plane(setup.protocol, setup.geometry);
+    const auto sums =
+        sums_of(outcome.contact, plane.field_axes().transpose() * setup.geometry.rod_endpoint());
+    const double force = -sums.force.z(), moment = (plane.field_axes() * sums.torque).y();
     const PressSample& sample = outcome.response.samples().back();
     EXPECT_NEAR(sample.normal_force, force, 1e-8 * force);
     EXPECT_NEAR(sample.lateral_force_x, 0.0, 1e-8 * force);

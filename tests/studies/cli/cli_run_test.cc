@@ -148,7 +148,7 @@ TEST(Run, StaticPressAgreesWithTheContinuum) {
   folder.run("press --out run",
              {"press.mode=static", "press.contact=frictionless", "lattice.spacing=tip_radius/8",
               R"(press.samples=["0.1 cm", "0.3 cm"])"});
-  folder.expect_files("run", {"parameters.toml", "manifest.json", "response.csv", "contact.csv"});
+  folder.expect_files("run", {"parameters.toml", "manifest.json", "response.csv", "contact_field.csv"});
   EXPECT_EQ(folder.json("run/summary.json")["status"], "finished");
   const PressResponse response = folder.response("run");
   ASSERT_EQ(response.samples().size(), 2U);

@@ -67,6 +67,16 @@ class Results(InFolder):
         self.assertIn("hookean", response._repr_html_())
         self.assertTrue(response.report().exists())
 
+    def test_contact_adds_up_to_the_force(self):
+        response = fingertip.press(QUICK, press_mode="static")
+        contact = response.contact
+        self.assertEqual(contact.units["normal_traction"], "Pa")
+        for sample in range(1, response.samples.rows + 1):
+            here = contact.sample == sample
+            force = (contact.area * contact.normal_traction)[here].sum()
+            self.assertAlmostEqual(force / response.normal_force[sample - 1], 1.0, delta=1e-6)
+        self.assertLessEqual(set(contact.state), {"stick", "slip"})
+
     def test_are_not_overwritten_unless_asked(self):
         fingertip.press(QUICK, press_mode="static", out="one")
         with self.assertRaisesRegex(fingertip.ConfigError, "exists already"):

@@ -64,6 +64,32 @@ TEST(Comparison, TellsForcesWithTheirErrors) {
       << report_testing::visible_text(read_text(folder.path() / "out/comparison.html"));
 }
 
+/// At depths that both have, of the press; a field by itself is nothing to compare.
+TEST(Comparison, TellsHowContactsDiffer) {
+  TemporaryFolder folder;
+  write_line(folder.path() / "soft", 1.0, 0.002);
+  write_line(folder.path() / "stiff", 1.25, 0.002);
+  report_testing::write_contact_field(folder.path() / "soft", {2e-4, 4e-4, 6e-4});
+  const std::vector<fs::path> runs{folder.path() / "soft", folder.path() / "stiff"};
+  const fs::path out = folder.path() / "out";
+  studies::report::write_comparison(runs, out);
+  EXPECT_FALSE(fs::exists(out / "comparison_contact.csv"));
+  report_testing::write_contact_field(folder.path() / "stiff", {2e-4, 4e-4}, 1.1);
+  const std::string screen = studies::report::write_comparison(runs, out).text;
+  const auto rows = cells(read_text(out / "comparison_contact.csv"));
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0][1], "stiff pressure_l2");
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_NEAR(std::stod(rows[i][0]), 2e-4 * double(i), 1e-12);
+    EXPECT_NEAR(std::stod(rows[i][1]), 0.1 * std::sqrt(0.5), 1e-3);  // of Hertz's pressure
+    EXPECT_EQ(std::stod(rows[i][2]), 0.0);
+    EXPECT_NEAR(std::stod(rows[i][3]), 0.1, 1e-9);
+    EXPECT_NEAR(std::stod(rows[i][4]), 0.0, 1e-9);
+  }
+  EXPECT_TRUE(says(screen, "7.0 % (largest +10.0 %, radius 0 %)")) << screen;
+  EXPECT_TRUE(says(read_text(out / "comparison.html"), "<section id=\"contact\">"));
+}
+
 TEST(Comparison, GivesDifferencesRelativeToTheFirstRun) {
   TemporaryFolder folder;
   write_line(folder.path() / "soft", 1.0, 0.002);

@@ -226,23 +226,6 @@ void write_verification(const fs::path& folder) {
              json{{"studies", studies}, {"checks", checks}, {"locking", locking}}.dump(2));
 }
 
-void write_pressure(const fs::path& folder) {
-  std::vector<meshes::ContactPoint> points;
-  int sample = 0;
-  for (double d : depths) {
-    const double a = std::sqrt(1.1 * d * radius);
-    ++sample;
-    for (int i = 0; i <= 20; ++i) {
-      meshes::ContactPoint ring{.sample = sample, .indentation = d};
-      ring.place.x() = a * i / 20.0;
-      ring.area = 1e-8;
-      ring.normal_traction = 1e6 * d * std::sqrt(std::max(0.0, 1.0 - i * i / 400.0));
-      std::ranges::copy(meshes::turned_around(ring, 4), std::back_inserter(points));
-    }
-  }
-  meshes::write_rows(points, folder / "contact_field.csv");
-}
-
 /// Outer particles of a voxelised tip and the axis springs between them; the deformed ones in the
 /// plane's frame, the rod having travelled clearance + depth.
 void write_boundary(const fs::path& folder) {
@@ -413,6 +396,24 @@ json run_summary() {
 
 }  // namespace
 
+void write_contact_field(const fs::path& folder, const std::vector<double>& indentations,
+                         double factor) {
+  std::vector<meshes::ContactPoint> points;
+  constexpr int rings = 20;
+  for (std::size_t sample = 1; sample <= indentations.size(); ++sample) {
+    const double d = indentations[sample - 1], a = std::sqrt(1.1 * d * radius);
+    for (int i = 0; i < rings; ++i) {
+      const double share = (i + 0.5) / rings;
+      meshes::ContactPoint ring{.sample = int(sample), .indentation = d};
+      ring.place.x() = a * share;
+      ring.area = 2.0 * std::acos(-1.0) * a * a * share / rings;
+      ring.normal_traction = factor * 1e6 * d * std::sqrt(1.0 - share * share);
+      std::ranges::copy(meshes::turned_around(ring, 24), std::back_inserter(points));
+    }
+  }
+  meshes::write_rows(points, folder / "contact_field.csv");
+}
+
 void write_file(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
   write_text(file, text);
@@ -456,7 +457,7 @@ void write_synthetic_run(const fs::path& folder) {
   write_convergence(folder / "reference");
   write_verification(folder / "verification");
   write_section(folder / "reference");
-  write_pressure(folder / "reference");
+  write_contact_field(folder / "reference", depths);
   for (const auto& [name, factor] : force_factor) {
     write_response(folder / name / "response.csv", factor, false);
     write_trace(folder / name / "trace.csv", factor);

@@ -274,7 +274,7 @@ Chapter continuum_chapter(const RunData& run) {
   chapter.tables["meshes"] = sequence_table(run, samples);
   if (!run.section.empty() && run.reference.samples().back().contact_radius > 0.0)
     chapter.figures.push_back(mesh_figure(run));
-  if (!run.contact_field.empty()) chapter.figures.push_back(pressure_figure(run));
+  if (!run.reference_contact.empty()) chapter.figures.push_back(pressure_figure(run));
   return written(std::move(chapter));
 }
 

@@ -52,7 +52,7 @@ struct PressureProfile {
 std::vector<PressureProfile> pressure_profiles(const RunData& run) {
   std::vector<PressureProfile> profiles;
   for (const auto points : grouped(
-           run.contact_field, [](const auto&a, const auto&b) { return a.sample == b.sample; })) {
+           run.reference_contact, [](const auto&a, const auto&b) { return a.sample == b.sample; })) {
     const double depth = points.front().indentation;
     // At full depth others may follow, of a lateral motion.
     if (!profiles.empty() && same_depth(profiles.back().depth, depth)) continue;

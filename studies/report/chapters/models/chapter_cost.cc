@@ -12,7 +12,7 @@ namespace fingertip::studies::report::inline chapters::inline models {
 namespace {
 
 /// One line of the lattices' table: what it tells and how a model's summary.json tells it.
-struct Quantity {
+struct CostLine {
   std::string label, note;
   std::function<std::string(const PressSummary& summary)> value;
 };
@@ -21,7 +21,7 @@ std::string seconds(double value) {
   return with_prefix(value, "s");
 }
 
-std::vector<Quantity> lattice_quantities() {
+std::vector<CostLine> cost_lines() {
   using S = PressSummary;
   return {
       {"Spacing", "", [](const S& s) { return length(s.spacing); }},
@@ -56,14 +56,13 @@ std::vector<Quantity> lattice_quantities() {
 
 Table lattice_table(const RunData& run) {
   Table table{{"Lattice"}};
-  for (const Quantity& quantity : lattice_quantities())
-    table.rows.push_back({{quantity.label, quantity.note}});
+  for (const CostLine& line : cost_lines()) table.rows.push_back({{line.label, line.note}});
   for (const ModelData& model : run.models) {
     if (model.summary.empty()) continue;
     table.header.emplace_back(model_label(model.name), model.summary.kinematics);
     std::size_t row = 0;
-    for (const Quantity& quantity : lattice_quantities())
-      table.rows[row++].push_back(quantity.value(model.summary));
+    for (const CostLine& line : cost_lines())
+      table.rows[row++].push_back(line.value(model.summary));
   }
   return table;
 }

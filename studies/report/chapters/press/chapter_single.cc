@@ -113,45 +113,6 @@ void add_samples(ChapterData& chapter, SampleRange samples, const SampleColumn& 
   chapter.tables["samples"] = sample_table(shown, over);
 }
 
-/// Pressure of the points on the plane against their distance from the contact's centre, and the
-/// peak that is told at that depth.
-Figure pressure_figure(const std::vector<ContactRow>& contact, const meshes::PressSample& last) {
-  const ShownUnit &length = shown_units().length, &stress = shown_units().stress;
-  double weight = 0.0;
-  meshes::Vector3 sum = meshes::Vector3::Zero();
-  for (const ContactRow& point : contact) {
-    const double force = std::max(point.pressure, 0.0);
-    weight += force, sum += force * point.deformed;
-  }
-  // A quarter or half of a contact has its centre on the mirror planes.
-  const auto centre = [&](int axis) {
-    const bool cut = std::ranges::all_of(
-        contact, [&](const ContactRow& point) { return point.deformed[axis] >= 0.0; });
-    return cut || !(weight > 0.0) ? 0.0 : sum[axis] / weight;
-  };
-  const double cx = centre(0), cy = centre(1);
-  Series points{"", "points", {"#0072B2", "", 1.0, 7, false, 0.45}};
-  for (const ContactRow& point : contact)
-    if (point.pressure > 0.0)
-      points.add(length(std::hypot(point.deformed.x() - cx, point.deformed.y() - cy)),
-                 stress(point.pressure));
-  Panel panel{.x_label = length.label("distance from the contact's centre"),
-              .y_label = stress.label("pressure"),
-              .series = {std::move(points)},
-              .x_range = Range{0.0},
-              .key = ""};
-  if (!std::isnan(last.max_pressure)) {
-    const double peak = stress(last.max_pressure);
-    panel.series.push_back({"peak pressure as told",
-                            "",
-                            {"#333333", "(7,4)", 1.6},
-                            {0.0, length(last.contact_radius)},
-                            {peak, peak}});
-    panel.key = "top right";
-  }
-  return {"contact_pressure", 760, 380, 1, {panel}};
-}
-
 }  // namespace
 
 SampleColumn indentation() {
@@ -189,7 +150,7 @@ Table sample_table(SampleRange samples, const SampleColumn& over) {
   return table;
 }
 
-Chapter press_chapter(const meshes::PressResponse& response, const std::vector<ContactRow>& contact,
+Chapter press_chapter(const meshes::PressResponse& response,
                       const std::vector<lattice::TraceRow>& trace) {
   if (response.empty()) return {};
   const SampleRange samples = response.pressing();
@@ -204,7 +165,6 @@ Chapter press_chapter(const meshes::PressResponse& response, const std::vector<C
   if (is_known(samples, radius))
     chapter.figures.push_back(
         {"contact_radius", 760, 340, 1, {curve_panel(samples, indentation(), radius)}});
-  if (!contact.empty()) chapter.figures.push_back(pressure_figure(contact, samples.back()));
   return written(std::move(chapter));
 }
 

@@ -7,6 +7,7 @@
 
 #include "studies/files/real_time_record.h"
 #include "studies/report/page/document.h"
+#include "studies/report/results/contact_comparison.h"
 #include "studies/report/results/grasp_run.h"
 #include "studies/report/results/moving_press.h"
 #include "studies/report/results/run_data.h"
@@ -36,9 +37,14 @@ SampleColumn lateral_displacement();
 Table sample_table(SampleRange samples, const SampleColumn& over);
 /// Stages of a program: when they were, force at both ends.
 Table stage_table(const std::vector<StageEntry>& stages);
-/// Force, contact radius and, from contact.csv, pressure of one press; without blocks when it has
-/// no sample. Of a program the force is drawn to its end, from trace.csv where there is one.
-Chapter press_chapter(const meshes::PressResponse& response, const std::vector<ContactRow>& contact,
+/// Pressure and shear of runs beside the first one, of that alone where it is alone; without blocks
+/// when no depth has a field.
+Chapter contact_chapter(const std::vector<RunContact>& runs);
+/// Of the continuum and the lattices.
+Chapter contact_chapter(const RunData& run);
+/// Force and contact radius of one press; without blocks when it has no sample. Of a program the
+/// force is drawn to its end, from trace.csv where there is one.
+Chapter press_chapter(const meshes::PressResponse& response,
                       const std::vector<lattice::TraceRow>& trace = {});
 /// How the press went on after its first loading: its stages, force in time. `files` may be empty,
 /// but for a lattice's press. Without blocks when nothing followed.

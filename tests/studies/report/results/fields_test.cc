@@ -145,7 +145,7 @@ template <typename Row>
 class Table : public testing::Test {};
 using Rows =
     testing::Types<meshes::PressSample, lattice::TraceRow, BoundaryRow, BoundarySpringRow,
-                   ContactRow, SnapshotRow, SnapshotPointRow, LatticeModeRow, CubeRow,
+                   SnapshotRow, SnapshotPointRow, LatticeModeRow, CubeRow,
                    PublishedStudyRow, EquilibriumStudyRow, VariantRow, TransferRow,
                    fem_reference::ConvergenceRow, meshes::ContactPoint, fem_reference::SectionRow,
                    fem_reference::TransientStep, fem_reference::ModeRow, calibration::FitDataRow,
@@ -204,7 +204,7 @@ TEST_F(Fields, MissingColumnsOfFurtherTablesAreNamed) {
   };
   expect(SnapshotRow{}, "hookean/snapshots.csv");
   expect(SnapshotPointRow{}, "hookean/snapshot_points.csv");
-  expect(ContactRow{}, "contact.csv");
+  expect(meshes::ContactPoint{}, "contact_field.csv");
   expect(VariantRow{}, "variants.csv");
   expect(LaterRow{}, "later.csv");
   expect(LatticeModeRow{}, "modes.csv");

@@ -253,6 +253,15 @@ TEST(ControlReport, APressAloneHasItsControlAndSnapshots) {
   EXPECT_TRUE(says(report_testing::visible_text(html), "within 0.40 % of its set point"));
 }
 
+/// Where the section across the contact has a pressure [mm, kPa].
+std::vector<std::pair<double, double>> section_of(const fs::path& press) {
+  const auto table = meshes::read_csv(press / "figures/contact_section.csv");
+  std::vector<std::pair<double, double>> points;
+  for (const auto& row : table.rows)
+    if (!row.back().empty()) points.emplace_back(std::stod(row[2]), std::stod(row[3]));
+  return points;
+}
+
 TEST(ControlReport, APressAtRestHasSnapshotsWithoutTimes) {
   const TemporaryFolder folder;
   const fs::path press = folder.path() / "rest";
@@ -278,17 +287,21 @@ TEST(ControlReport, APressAtRestHasSnapshotsWithoutTimes) {
     response.append(sample);
   }
   response.write_csv(press / "response.csv");
-  // Single points may bear more than the peak that is told: the picture shows both.
-  std::vector<studies::ContactRow> contact(2);
-  contact[0].pressure = 73e3, contact[1].pressure = 20e3;
-  contact[1].deformed.x() = 1e-3;
-  meshes::write_rows(contact, press / "contact.csv");
+  report_testing::write_contact_field(press, {1e-3, 2e-3});
   EXPECT_TRUE(studies::report::write_report(press).empty());
-  const std::string drawn = read_text(press / "figures/contact_pressure.csv");
-  EXPECT_TRUE(says(drawn, {"peak pressure as told,0,39.5\n", "peak pressure as told,4,39.5\n"}));
   const std::string html = read_text(press / "report.html");
   EXPECT_TRUE(says(html, "<section id=\"snapshots\">"));
   EXPECT_TRUE(omits(html, "<section id=\"control\">"));
+  // The contact at full depth: 2 kPa in the middle, out to 4.69 mm.
+  EXPECT_TRUE(says(html, "<section id=\"contact\">"));
+  double highest = 0.0, widest = 0.0;
+  for (const auto& [x, pressure] : section_of(press)) {
+    highest = std::max(highest, pressure);
+    widest = std::max(widest, x);
+  }
+  EXPECT_NEAR(highest, 2.0, 0.01);
+  EXPECT_NEAR(widest, std::sqrt(1.1 * 2e-3 * 0.01) * 1e3, 0.1);
+  EXPECT_TRUE(says(read_text(press / "figures/contact_maps.svg"), "data:image/png"));
   const std::string svg = read_text(press / "figures/snapshots_1.svg");
   EXPECT_TRUE(says(svg, "end"));
   EXPECT_TRUE(omits(svg, "nan"));

@@ -3,9 +3,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <vector>
 
-namespace fingertip::lattice::inline contact {
+#include "meshes/press/contact_field.h"
+
+namespace fingertip::meshes::inline press {
 
 /// A point of the outer surface as seen along the plane's normal.
 struct LoadedPoint {
@@ -30,6 +33,14 @@ struct ForceMoments {
 struct ContactPatch {
   double radius = 0.0;        ///< of the circle that has the contact's area [m]
   double max_pressure = 0.0;  ///< force over the area that it acts on, deformed or not [Pa]
+  /// Of an ellipse: s = d·(ellipse d) at d from the centre [1/m²]; else zero.
+  Eigen::Matrix2d ellipse = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< of pressure [m]
+  double peak = 0.0;                                 ///< b
+
+  bool is_ellipse() const { return ellipse(0, 0) > 0.0; }
+  /// Pressure at a place over that in the middle, 0 outside; of an ellipse.
+  double profile(const Eigen::Vector2d& place) const;
 };
 
 /// Both from moments of the forces, for neighbouring points share their load unevenly (their ties
@@ -50,11 +61,13 @@ struct ContactPatch {
 /// That is one ellipse. With z = u + i v, u and v along axes in which S is 1, it has <z^4> =
 /// <z^3 z'> = 0. Where points are many and these or q say otherwise - two pads, a ring, the face of
 /// a block - the radius is that of the points' own area, which is true of flat faces and at most
-/// that of round ones, and the largest pressure is meshes::unknown.
+/// that of round ones, and the largest pressure is unknown.
 ///
 /// `sectors` (1, 2 or 4): the points are the whole contact, its half t2 >= 0 or its quarter
 /// t1, t2 >= 0. Zeros without a loaded point.
 ContactPatch contact_patch(const ForceMoments& moments, int sectors = 1);
 ContactPatch contact_patch(const std::vector<LoadedPoint>& points, int sectors = 1);
+/// Of a whole field.
+ContactPatch contact_patch(std::span<const ContactPoint> field);
 
-}  // namespace fingertip::lattice::inline contact
+}  // namespace fingertip::meshes::inline press

@@ -1,4 +1,4 @@
-#include "lattice/contact/contact_patch.h"
+#include "meshes/press/contact_patch.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <vector>
 
 using namespace fingertip;
-using lattice::LoadedPoint;
+using meshes::LoadedPoint;
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "lattice/contact/contact_patch.h"
+#include "meshes/press/contact_patch.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -10,7 +10,7 @@
 
 #include "meshes/press/press_response.h"
 
-namespace fingertip::lattice::inline contact {
+namespace fingertip::meshes::inline press {
 
 using Eigen::Matrix2d;
 
@@ -61,6 +61,7 @@ class CentralMoments {
       return sums.power[ForceMoments::place(i, j)] / sums.power[0];
     };
     const double x = mean(1, 0), y = mean(0, 1);
+    centre_ = {x, y};
     static constexpr double binomial[5][5] = {
         {1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
     for (std::size_t i = 0; i <= 4; ++i)
@@ -75,6 +76,7 @@ class CentralMoments {
   double operator()(std::size_t i, std::size_t j) const {
     return values_[ForceMoments::place(i, j)];
   }
+  const Eigen::Vector2d& centre() const { return centre_; }
   Matrix2d second() const {
     const CentralMoments& c = *this;
     return Matrix2d{{c(2, 0), c(1, 1)}, {c(1, 1), c(0, 2)}};
@@ -95,6 +97,7 @@ class CentralMoments {
 
  private:
   std::array<double, 15> values_{};
+  Eigen::Vector2d centre_;
 };
 
 /// The whole contact's from those of a sector: what is odd in a mirrored direction cancels.
@@ -139,9 +142,20 @@ ContactPatch contact_patch(const ForceMoments& moments, int sectors) {
     const bool flat = sums.touched > bearing_share * area;
     if (q < (flat ? min_q_there : min_q) || q > max_q ||
         uneven > (flat ? max_uneven_there : max_uneven))
-      return {std::sqrt(sums.touched / std::numbers::pi), meshes::unknown};
+      return {std::sqrt(sums.touched / std::numbers::pi), unknown};
   }
-  return {std::sqrt(square), force * (1.0 + peak) / (area * profile.zeroth)};
+  ContactPatch patch{std::sqrt(square), force * (1.0 + peak) / (area * profile.zeroth)};
+  if (S.determinant() > 0.0) patch.ellipse = 0.5 * profile.mean() * S.inverse();
+  patch.centre = central.centre();
+  patch.peak = peak;
+  return patch;
+}
+
+double ContactPatch::profile(const Eigen::Vector2d& place) const {
+  const Eigen::Vector2d way = place - centre;
+  const double inside = 1.0 - way.dot(ellipse * way);
+  if (!(inside > 0.0)) return 0.0;
+  return (std::sqrt(inside) + peak * std::pow(inside, 3.5)) / (1.0 + peak);
 }
 
 ContactPatch contact_patch(const std::vector<LoadedPoint>& points, int sectors) {
@@ -150,4 +164,12 @@ ContactPatch contact_patch(const std::vector<LoadedPoint>& points, int sectors) 
   return contact_patch(sums, sectors);
 }
 
-}  // namespace fingertip::lattice::inline contact
+ContactPatch contact_patch(std::span<const ContactPoint> field) {
+  ForceMoments sums;
+  for (const ContactPoint& point : field)
+    if (const double push = -point.force().z(); push > 0.0)
+      sums.add({point.place.head<2>(), push, point.area * std::abs(point.normal.z())});
+  return contact_patch(sums);
+}
+
+}  // namespace fingertip::meshes::inline press

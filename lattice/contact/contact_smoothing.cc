@@ -1,0 +1,116 @@
+#include "lattice/contact/contact_smoothing.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace fingertip::lattice::inline contact {
+
+using Eigen::Matrix3d;
+using meshes::ContactPoint;
+using meshes::Vector3;
+
+namespace {
+
+Vector3 across(const Vector3& vector, const Vector3& normal) {
+  return vector - vector.dot(normal) * normal;
+}
+
+/// What acts on a particle [N].
+struct Load {
+  double pressed = 0.0, profile = 0.0;  ///< by pressures: the ties', those of the profile
+  Vector3 sheared = Vector3::Zero();
+};
+
+/// Gives `points` the sums of `wanted` by small changes of their forces.
+void restore(std::span<const ContactPoint> wanted, std::vector<ContactPoint>& points) {
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  const auto is_pushed_only = [](const ContactPoint& point) { return point.shear.isZero(0.0); };
+  const bool along_normals = std::ranges::all_of(points, is_pushed_only);
+  const Vector3 centre = centre_of_pressure(points);
+  double reach = 0.0;
+  for (const ContactPoint& point : points) reach = std::max(reach, (point.place - centre).norm());
+  if (!(reach > 0.0)) return;  // a single point
+  // What changes of the force by unit a and b, and its part of force and moment.
+  const auto lever = [&](const ContactPoint& point) {
+    const Vector3 arm = (point.place - centre) / reach;
+    Eigen::Matrix<double, 3, 6> change;
+    change << Matrix3d::Identity(), Matrix3d::Zero();
+    for (int c = 0; c < 3; ++c) change.col(3 + c) = Vector3::Unit(c).cross(arm);
+    if (along_normals) change = (point.normal * point.normal.transpose() * change).eval();
+    return change;
+  };
+  // Twice: what round-off leaves of the first.
+  for (int round = 0; round < 2; ++round) {
+    Matrix6 response = Matrix6::Zero();
+    for (const ContactPoint& point : points)
+      response += point.force().norm() * lever(point).transpose() * lever(point);
+    const meshes::ContactSums now = sums_of(points, centre), sums = sums_of(wanted, centre);
+    Vector6 lacking;
+    lacking << sums.force - now.force, (sums.torque - now.torque) / reach;
+    // Of normals that go through one point, a ball's, nothing turns: rank 3.
+    Eigen::CompleteOrthogonalDecomposition<Matrix6> solver;
+    const Vector6 factors = solver.setThreshold(1e-10).compute(response).solve(lacking);
+    for (ContactPoint& point : points) {
+      const Vector3 force = point.force();
+      point.set_force(force + force.norm() * (lever(point) * factors));
+      if (along_normals) point.shear.setZero();
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ContactPoint> contact_field(std::span<const TiedPoint> points,
+                                        const meshes::ContactPatch& patch, int sectors) {
+  const auto in_ellipse = [&](const TiedPoint& tied) {
+    return patch.profile(tied.point.place.head<2>());
+  };
+  // A contact narrower than the points are apart may miss them all.
+  const bool has_profile =
+      patch.is_ellipse() && std::ranges::any_of(points, [&](const TiedPoint& tied) {
+        return tied.touches() && in_ellipse(tied) > 0.0;
+      });
+  const auto profile = [&](const TiedPoint& tied) {
+    return has_profile ? in_ellipse(tied) : double(tied.touches());
+  };
+  std::unordered_map<std::uint32_t, Load> loads;
+  for (const TiedPoint& tied : points) {
+    const double pressure = profile(tied);
+    if (!tied.touches() && !(pressure > 0.0)) continue;
+    for (std::size_t c = 0; c < 8; ++c) {
+      Load& load = loads[tied.particles[c]];
+      const double share = tied.weights[c] * tied.point.area;
+      load.pressed += share * tied.point.normal_traction;
+      load.profile += share * pressure;
+      load.sheared += share * tied.point.shear;
+    }
+  }
+  std::vector<ContactPoint> raw, smooth;
+  for (const TiedPoint& tied : points) {
+    if (tied.touches()) raw.push_back(tied.point);
+    const double pressure = profile(tied);
+    if (!(pressure > 0.0)) continue;
+    double pressed = 0.0;
+    Vector3 sheared = Vector3::Zero();
+    for (std::size_t c = 0; c < 8; ++c) {
+      const Load& load = loads[tied.particles[c]];
+      if (!(load.profile > 0.0)) continue;
+      pressed += tied.weights[c] * load.pressed / load.profile;
+      sheared += tied.weights[c] / load.profile * load.sheared;
+    }
+    if (!(pressed > 0.0)) continue;
+    ContactPoint& point = smooth.emplace_back(tied.point);
+    point.normal_traction = pressure * pressed;
+    point.shear = across(pressure * sheared, point.normal);
+  }
+  raw = unfolded(raw, sectors);
+  smooth = unfolded(smooth, sectors);
+  if (!smooth.empty()) restore(raw, smooth);
+  return smooth;
+}
+
+}  // namespace fingertip::lattice::inline contact

@@ -1,0 +1,180 @@
+/// Pressure and shear in the contact, run beside run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/report/chapters/press/press_chapters.h"
+#include "studies/report/page/words.h"
+
+namespace fingertip::studies::report::inline chapters::inline press {
+namespace {
+
+using meshes::ContactDifference;
+using meshes::ContactMap;
+
+/// Runs beside the first one that a figure has room for.
+constexpr std::size_t max_maps = 3;
+
+std::vector<ContactMap> maps_of(const ContactsAtDepth& contacts) {
+  std::vector<ContactMap> maps;
+  for (const auto& field : contacts.fields)
+    maps.push_back(field.empty() ? ContactMap() : contact_map(field, contacts.raster()));
+  return maps;
+}
+
+/// A quantity of a map along t1, in the middle.
+Series section_of(const RunContact& run, const ContactMap& map, Eigen::ArrayXXd ContactMap::*of) {
+  Series series{run.label, "", run.style.as_line()};
+  const Eigen::Index middle = map.raster.count / 2;
+  for (Eigen::Index i = 0; i < map.raster.count; ++i)
+    series.add(shown_units().length(map.raster.x(i)),
+               map.touches(i, middle) > 0.0 ? shown_units().stress((map.*of)(i, middle))
+                                            : meshes::unknown);
+  return series;
+}
+
+bool is_sheared(const ContactMap& map) {
+  return map.shear_x.size() > 0 &&
+         (map.shear_x.abs() + map.shear_y.abs()).maxCoeff() > 1e-6 * map.pressure.maxCoeff();
+}
+
+Figure section_figure(const std::vector<RunContact>& runs, const std::vector<ContactMap>& maps) {
+  const ShownUnit &length = shown_units().length, &stress = shown_units().stress;
+  const auto panel = [&](const char* what, Eigen::ArrayXXd ContactMap::*of) {
+    Panel made{.x_label = length.label("along t1"),
+               .y_label = stress.label(what),
+               .key = runs.size() > 1 ? above : ""};
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      if (maps[i].pressure.size() > 0) made.series.push_back(section_of(runs[i], maps[i], of));
+    return made;
+  };
+  Figure figure{"contact_section", 760, 380, 1, {panel("pressure", &ContactMap::pressure)}};
+  figure.panels.front().y_range = Range{0.0};
+  if (!std::ranges::any_of(maps, is_sheared)) return figure;
+  figure.panels.push_back(panel("shear along t1", &ContactMap::shear_x));
+  figure.panels.back().key = "";
+  figure.height = 620;
+  return figure;
+}
+
+/// Of a contact's places a value each, in the colours of `range`.
+Panel map_panel(const std::string& title, const ContactMap& map, const Eigen::ArrayXXd& values,
+                const Eigen::ArrayXXd& shown, const Range& range, const std::string& label) {
+  const ShownUnit& length = shown_units().length;
+  Panel panel{.title = title,
+              .x_label = length.label("along t1"),
+              .y_label = length.label("along t2"),
+              .equal_scales = true,
+              .key = ""};
+  HeatMap colours{{}, range, label, range.from < 0.0};
+  for (Eigen::Index i = 0; i < map.raster.count; ++i) {
+    colours.function.x.push_back(length(map.raster.x(i)));
+    colours.function.y.push_back(length(map.raster.y(i)));
+    auto& row = colours.function.values.emplace_back();
+    for (Eigen::Index j = 0; j < map.raster.count; ++j)
+      row.push_back(shown(i, j) > 0.0 ? values(i, j) : meshes::unknown);
+  }
+  panel.x_range = Range{colours.function.x.front(), colours.function.x.back()};
+  panel.y_range = Range{colours.function.y.front(), colours.function.y.back()};
+  panel.map = std::move(colours);
+  return panel;
+}
+
+Panel stress_panel(const std::string& title, const ContactMap& map, const Eigen::ArrayXXd& stress,
+                   double highest, const char* what) {
+  const ShownUnit& unit = shown_units().stress;
+  return map_panel(title, map, stress.unaryExpr([&](double value) { return unit(value); }),
+                   map.touches, {0.0, unit(highest)}, unit.label(what));
+}
+
+Panel difference_panel(const ContactMap& map, const ContactMap& first) {
+  const Eigen::ArrayXXd off = 100.0 * (map.pressure - first.pressure) / first.pressure.maxCoeff();
+  const double largest = std::max(off.abs().maxCoeff(), 0.1);
+  return map_panel("difference", map, off, map.touches + first.touches, {-largest, largest},
+                   "% of the largest");
+}
+
+Figure map_figure(const std::vector<RunContact>& runs, const std::vector<ContactMap>& maps) {
+  const ContactMap& first = maps.front();
+  double highest = 0.0;
+  for (const ContactMap& map : maps)
+    if (map.pressure.size() > 0) highest = std::max(highest, map.pressure.maxCoeff());
+  Figure figure{"contact_maps", 1200, 0, 3, {}, 90};
+  if (runs.size() == 1) {
+    figure.columns = 1;
+    figure.width = 560;
+    figure.panels = {stress_panel("", first, first.pressure, highest, "pressure")};
+    figure.right_margin = 120;
+    if (is_sheared(first)) {
+      const Eigen::ArrayXXd shear = (first.shear_x.square() + first.shear_y.square()).sqrt();
+      figure.columns = 2;
+      figure.width = 960;
+      figure.panels.front().title = "pressure";
+      figure.panels.push_back(
+          stress_panel("shear", first, shear, shear.maxCoeff(), "shear, its magnitude"));
+    }
+  }
+  for (std::size_t i = 1; i < runs.size() && figure.panels.size() < 3 * max_maps; ++i) {
+    if (maps[i].pressure.size() == 0) continue;
+    figure.panels.push_back(
+        stress_panel(runs.front().label, first, first.pressure, highest, "pressure"));
+    figure.panels.push_back(
+        stress_panel(runs[i].label, maps[i], maps[i].pressure, highest, "pressure"));
+    figure.panels.push_back(difference_panel(maps[i], first));
+  }
+  const int rows = (int(figure.panels.size()) + figure.columns - 1) / figure.columns;
+  figure.height = 60 + 330 * rows;
+  return figure;
+}
+
+/// A pressure's difference, and the others beneath it.
+Cell difference_cell(const ContactDifference& d) {
+  if (std::isnan(d.pressure_l2)) return {};
+  std::string note = fmt::format("largest {}, radius {}", percent(d.peak), percent(d.radius));
+  if (d.shear_l2 > 0.0) note.insert(0, fmt::format("shear {}, ", percent_magnitude(d.shear_l2)));
+  return {percent_magnitude(d.pressure_l2), note};
+}
+
+Table contact_table(const std::vector<RunContact>& runs,
+                    const std::vector<ContactsAtDepth>& depths) {
+  Table table{heads({"Indentation\n" + unit_name(shown_units().length)})};
+  for (std::size_t i = 1; i < runs.size(); ++i) table.header.emplace_back(runs[i].label);
+  for (const ContactsAtDepth& here : depths) {
+    auto& row = table.rows.emplace_back();
+    row.push_back(fmt::format("{:.4g}", shown_units().length(here.depth)));
+    for (std::size_t i = 1; i < runs.size(); ++i)
+      row.push_back(difference_cell(here.differences[i]));
+  }
+  return table;
+}
+
+}  // namespace
+
+Chapter contact_chapter(const std::vector<RunContact>& all) {
+  std::vector<RunContact> runs;
+  for (const RunContact& run : all)
+    if (!run.contact->empty()) runs.push_back(run);
+  const std::vector<ContactsAtDepth> depths = contacts_at_depths(runs);
+  if (depths.empty()) return {};
+  ChapterData chapter("contact");
+  chapter["compared"] = runs.size() > 1;
+  chapter["first"] = runs.front().label;
+  chapter["depth"] = length(depths.back().depth);
+  const std::vector<ContactMap> maps = maps_of(depths.back());
+  if (!(maps.front().pressure.maxCoeff() > 0.0)) return {};  // points in a line
+  chapter.figures = {section_figure(runs, maps), map_figure(runs, maps)};
+  if (runs.size() > 1) chapter.tables["contact"] = contact_table(runs, depths);
+  return written(std::move(chapter));
+}
+
+Chapter contact_chapter(const RunData& run) {
+  std::vector<RunContact> runs{
+      {model_label("reference"), model_style("reference"), &run.reference, &run.reference_contact}};
+  for (const ModelData& model : run.models)
+    runs.push_back(
+        {model_label(model.name), model_style(model.name), &model.response, &model.contact});
+  return contact_chapter(runs);
+}
+
+}  // namespace fingertip::studies::report::inline chapters::inline press
