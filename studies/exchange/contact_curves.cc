@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "meshes/base/files.h"
+#include "meshes/press/limit_surface.h"
 #include "meshes/press/press_response.h"
 #include "meshes/shape/geometry.h"
+#include "meshes/tables/table_rows.h"
 #include "studies/files/shown_units.h"
 #include "studies/presses/press_job.h"
 #include "studies/presses/press_setup.h"
@@ -45,6 +50,21 @@ std::vector<double> depths_to(double depth) {
   return depths;
 }
 
+/// Of every sample of a press, by its own pressure.
+std::vector<double> greatest_moments(const std::filesystem::path& folder) {
+  std::vector<double> moments(samples, meshes::unknown);
+  const std::filesystem::path file = folder / "contact_field.csv";
+  if (!std::filesystem::exists(file)) return moments;
+  const auto field = meshes::read_rows<meshes::ContactPoint>(file);
+  for (int sample = 1; sample <= samples; ++sample) {
+    std::vector<meshes::ContactPoint> own;
+    std::ranges::copy_if(field, std::back_inserter(own),
+                         [sample](const auto& point) { return point.sample == sample; });
+    if (!own.empty()) moments[std::size_t(sample) - 1] = meshes::limit_point(own, 0.0).moment;
+  }
+  return moments;
+}
+
 }  // namespace
 
 std::vector<meshes::Violation> not_straight(const meshes::PressProtocol& protocol) {
@@ -79,7 +99,7 @@ ContactCurves::ContactCurves(const LoadedConfig& loaded, Of of) {
     const bool fitted = jobs_.empty();
     jobs_.push_back({fmt::format("continuum/{}", jobs_.size() + 1),
                      reference_job(continuum_at_rest(own, strain)), !fitted});
-    curves_.push_back({name_of(obstacle), obstacle, fitted, {}, {}, {}});
+    curves_.push_back({name_of(obstacle), obstacle, fitted, {}, {}, {}, {}});
   }
   if (of == Of::lattice) {
     LoadedConfig own = loaded;
@@ -106,6 +126,7 @@ std::vector<ContactCurve> ContactCurves::read(const std::filesystem::path& folde
     if (!std::filesystem::exists(file)) continue;
     const auto response = meshes::PressResponse::read_csv(file);
     if (response.samples().size() != std::size_t(samples)) continue;
+    curves[i].greatest_moment = greatest_moments(folder / jobs_[i].name);
     for (const meshes::PressSample& sample : response.samples()) {
       curves[i].forces.indentation.push_back(sample.indentation);
       curves[i].forces.force.push_back(sample.normal_force);

@@ -18,7 +18,10 @@ struct ContactCurve {
   bool fitted = false;              ///< else predicted
   calibration::ForceCurve forces;   ///< empty where the press did not converge
   std::vector<double> force_error;  ///< estimated [N]
-  std::vector<double> lattice;      ///< forces of the lattice at rest, where it was pressed [N]
+  /// At which friction lets go of a turn about the normal, over its coefficient [N m]; NaN where
+  /// the contact is not known.
+  std::vector<double> greatest_moment;
+  std::vector<double> lattice;  ///< forces of the lattice at rest, where it was pressed [N]
 
   bool empty() const { return forces.force.empty(); }
 };

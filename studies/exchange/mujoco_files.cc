@@ -60,15 +60,28 @@ std::string obstacle_geom(const meshes::Obstacle& obstacle) {
   return "";
 }
 
-std::string friction_of(const LoadedConfig& loaded) {
-  const meshes::PressProtocol& protocol = loaded.config.press.protocol;
-  switch (protocol.contact) {
-    case meshes::ContactMode::frictionless: return "condim=\"1\"";
-    case meshes::ContactMode::coulomb:
-      return fmt::format("condim=\"3\" friction=\"{} 0 0\"", to_text(protocol.friction));
-    case meshes::ContactMode::stick: return "condim=\"3\" friction=\"10 0 0\"";
+/// MuJoCo's coefficient of torsion over that of sliding [m]: the moment that friction holds over
+/// the normal force, by least squares of the moments, for MuJoCo's is one length where the contact
+/// grows with the load. NaN where the contact is not known.
+double torsion_arm(const ContactCurve& curve) {
+  double product = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < curve.forces.force.size(); ++i) {
+    const double force = curve.forces.force[i];
+    product += force * curve.greatest_moment[i];
+    square += force * force;
   }
-  return "";
+  return product / square;
+}
+
+/// `arm`: that of a geom's single contact; many of them turn by themselves, NaN.
+std::string friction_of(const LoadedConfig& loaded, double arm = meshes::unknown) {
+  constexpr double sticking = 10.0;  // MuJoCo has no stick
+  const meshes::PressProtocol& protocol = loaded.config.press.protocol;
+  if (protocol.contact == meshes::ContactMode::frictionless) return "condim=\"1\"";
+  const double sliding =
+      protocol.contact == meshes::ContactMode::coulomb ? protocol.friction : sticking;
+  if (std::isnan(arm)) return fmt::format("condim=\"3\" friction=\"{} 0 0\"", to_text(sliding));
+  return fmt::format("condim=\"4\" friction=\"{} {:.6g} 0\"", to_text(sliding), sliding * arm);
 }
 
 /// Largest dF/dr of a contact up to a penetration [N/m].
@@ -99,7 +112,7 @@ std::string rigid_model(const LoadedConfig& loaded, const ContactCurve& curve,
                 fmt::arg("step", std::min(longest_step, calm / std::sqrt(gain / carriage))),
                 fmt::arg("obstacle", obstacle_geom(curve.obstacle)),
                 fmt::arg("radius", to_text(radius)), fmt::arg("mass", to_text(carriage)),
-                fmt::arg("friction", friction_of(loaded)),
+                fmt::arg("friction", friction_of(loaded, torsion_arm(curve))),
                 fmt::arg("solref", solref(contact.stiffness / carriage)),
                 fmt::arg("solimp", solimp(contact, 9)), fmt::arg("gain", gain));
 }
@@ -136,11 +149,14 @@ std::string flex_model(const LoadedConfig& loaded, const ContactCurve& curve,
                 fmt::arg("held", flex.held()));
 }
 
-std::string mujoco_readme(const ContactCurve& curve, const SoftContact& contact,
-                          const SoftBody* flex) {
-  const std::string text =
+std::string mujoco_readme(const LoadedConfig& loaded, const ContactCurve& curve,
+                          const SoftContact& contact, const SoftBody* flex) {
+  std::string text =
       filled("mujoco_readme.txt", fmt::arg("precision", 100.0 / servo),
              fmt::arg("stiffness", contact.stiffness), fmt::arg("solimp", solimp(contact, 4)));
+  const double arm = torsion_arm(curve);
+  if (loaded.config.press.protocol.contact != meshes::ContactMode::frictionless && !std::isnan(arm))
+    text += filled("mujoco_torsion_readme.txt", fmt::arg("arm", 1e3 * arm));
   if (flex == nullptr)
     return text + fmt::format(
                       "There is no flex: its forces are foretold under a plane only, and this is a "
@@ -166,7 +182,7 @@ ContactExport mujoco_export(const ContactSource& source) {
     made.files.push_back({"finger_flex.xml", flex_model(source.loaded, own, *flex)});
     models.push_back(foretold("flex", *flex));
   }
-  made.readme = mujoco_readme(own, contact, flex);
+  made.readme = mujoco_readme(source.loaded, own, contact, flex);
   made.said = fmt::format("rigid geom: K = {:.4g} N/m\n", contact.stiffness);
   if (flex != nullptr) made.said += "flex: " + summary(*flex, own) + "\n";
   made.transfer = transfer_of(
@@ -174,6 +190,19 @@ ContactExport mujoco_export(const ContactSource& source) {
       "Force in MuJoCo at rest over that of the continuum: of the geom from its contact's formula, "
       "of the flex from an equilibrium of the same tetrahedra and contacts",
       source.lost, source.curves, models);
+  const meshes::PressProtocol& protocol = source.loaded.config.press.protocol;
+  if (const double arm = torsion_arm(own);
+      protocol.contact == meshes::ContactMode::coulomb && !std::isnan(arm)) {
+    add_torsion(made.transfer, source.curves,
+                {"rigid geom", protocol.friction, [&](const ContactCurve& curve) {
+                   std::vector<double> moments;
+                   for (const double at : curve.forces.indentation)
+                     moments.push_back(protocol.friction * arm * contact.force(at));
+                   return moments;
+                 }});
+    made.said +=
+        fmt::format("rigid geom: friction turns at {:.3g} mm times its sliding force\n", 1e3 * arm);
+  }
   return made;
 }
 

@@ -103,6 +103,21 @@ TransferFile transfer_of(const std::string& format, const std::string& how,
   return file;
 }
 
+void add_torsion(TransferFile& file, const std::vector<ContactCurve>& curves,
+                 const ForetoldTorsion& model) {
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    if (curves[c].empty()) continue;
+    TransferTorsionEntry& entry = file.obstacles[c].torsion.emplace_back();
+    entry.model = model.name;
+    const std::vector<double> moments = model.moments(curves[c]);
+    for (const std::size_t i : told) {
+      entry.moment.push_back(model.friction * curves[c].greatest_moment[i]);
+      entry.model_moment.push_back(moments[i]);
+      entry.error.push_back(moments[i] / entry.moment.back() - 1.0);
+    }
+  }
+}
+
 std::string transfer_chapters(const TransferFile& transfer) {
   if (transfer.obstacles.empty()) return "";
   std::string text = "## Force error to expect\n" + transfer.how + ".\n";

@@ -23,6 +23,16 @@ ForetoldModel by_law(const std::string& name,
 /// The lattice at rest, as the curves know it.
 ForetoldModel lattice_at_rest();
 
+/// What a model makes of the moment about the normal on a curve's obstacle at the curve's
+/// indentations, NaN where that is not known [N m], where friction has the coefficient `friction`.
+struct ForetoldTorsion {
+  std::string name;
+  double friction = 0.0;
+  std::function<std::vector<double>(const ContactCurve&)> moments;
+};
+void add_torsion(TransferFile& file, const std::vector<ContactCurve>& curves,
+                 const ForetoldTorsion& model);
+
 /// Told are 1/6, 1/3, 1/2, 2/3 and all of the depth.
 TransferFile transfer_of(const std::string& format, const std::string& how,
                          const std::vector<meshes::Violation>& lost,

@@ -17,13 +17,27 @@ struct TransferModelEntry {
 };
 FINGERTIP_FIELDS(TransferModelEntry, model, force, error, carries_from, carries_to);
 
+/// The moment about the normal at which Coulomb friction lets go, at the depths told; SI.
+struct TransferTorsionEntry {
+  std::string model;
+  std::vector<double> moment;        ///< of the continuum's pressure, NaN where it is not known
+  std::vector<double> model_moment;  ///< in the other program
+  std::vector<double> error;         ///< relative
+};
+FINGERTIP_FIELDS(TransferTorsionEntry, model, moment, model_moment, error);
+
 struct TransferObstacleEntry {
   std::string obstacle;
   bool fitted = false;
   std::vector<double> indentation, force, force_error;  ///< of the continuum at the depths told
   std::vector<TransferModelEntry> models;
+  std::vector<TransferTorsionEntry> torsion;
 };
-FINGERTIP_FIELDS(TransferObstacleEntry, obstacle, fitted, indentation, force, force_error, models);
+consteval auto fields_of(const TransferObstacleEntry*) {
+  return FINGERTIP_ALL_MEMBERS(TransferObstacleEntry, obstacle, fitted, indentation, force,
+                               force_error, models, torsion)
+      .newer("torsion");
+}
 
 struct TransferFile {
   std::string format, how;

@@ -48,6 +48,13 @@ struct ComparisonResult {
 ComparisonResult write_comparison(const std::vector<std::filesystem::path>& runs,
                                   const std::filesystem::path& out_folder);
 
+/// What the contact of a press or a continuum holds by Coulomb friction (limit_surface.h), sample by
+/// sample, for a terminal; writes limit_surface.csv into the run folder: `sample`, `indentation
+/// [m]`, `centre [m]`, `force [N]`, `moment [N m]`, both per unit of the coefficient. Throws
+/// meshes::InvalidInput without contact_field.csv, for one that is damaged, without a push, and for
+/// a frictionless press.
+std::string write_limit_surface(const std::filesystem::path& run_folder);
+
 /// What the page of a `validate` or `calibrate` run folder tells in its main tables, for a
 /// terminal, then the criteria. Throws meshes::InvalidInput like write_report, and for damaged
 /// files.

@@ -43,6 +43,8 @@ constexpr Verb verbs[] = {
     {"compare", "compare force curves with the continuum's or the first one's", "RUN",
      "run folders", out_options | units_option},
     {"report", "write report.html anew", "RUN", "run folders", units_option},
+    {"limit-surface", "tell the force and the moment that a contact holds by friction", "RUN",
+     "run folders of press and reference", units_option},
     {"sweep", "run a verb for all combinations of values, whole or in shards", "VERB",
      "press (default), modes, reference or grasp", everything},
     {"export", "write the finger for other programs", "", "", everything},

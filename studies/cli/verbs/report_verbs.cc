@@ -88,4 +88,18 @@ int run_report(const CommandLine& line) {
   return 0;
 }
 
+int run_limit_surface(const CommandLine& line) {
+  if (line.arguments.empty())
+    refuse("limit-surface", "no run folder is given", "give the folder of a press or a reference");
+  const ShowIn units(wanted_units(line).value_or(UnitSystem::si));
+  for (const std::string& run : line.arguments) {
+    require_folder(run);
+    const std::string text = report::write_limit_surface(run);
+    if (line.quiet) continue;
+    fmt::print("{}written: {}\n", text, (fs::path(run) / "limit_surface.csv").string());
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
 }  // namespace fingertip::studies::inline cli::inline verbs

@@ -28,6 +28,7 @@ int run_material(const CommandLine& line, const LoadedConfig& loaded);
 int run_plan(const CommandLine& line, const LoadedConfig& loaded);
 int run_compare(const CommandLine& line);
 int run_report(const CommandLine& line);
+int run_limit_surface(const CommandLine& line);
 int run_export(const CommandLine& line);
 int run_sweep(const CommandLine& line);
 int run_check(const CommandLine& line);

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "meshes/tables/csv_table.h"
 #include "tests/studies/workplace.h"
 
 namespace fs = std::filesystem;
@@ -148,7 +150,8 @@ TEST(Run, StaticPressAgreesWithTheContinuum) {
   folder.run("press --out run",
              {"press.mode=static", "press.contact=frictionless", "lattice.spacing=tip_radius/8",
               R"(press.samples=["0.1 cm", "0.3 cm"])"});
-  folder.expect_files("run", {"parameters.toml", "manifest.json", "response.csv", "contact_field.csv"});
+  folder.expect_files("run",
+                      {"parameters.toml", "manifest.json", "response.csv", "contact_field.csv"});
   EXPECT_EQ(folder.json("run/summary.json")["status"], "finished");
   const PressResponse response = folder.response("run");
   ASSERT_EQ(response.samples().size(), 2U);
@@ -156,6 +159,34 @@ TEST(Run, StaticPressAgreesWithTheContinuum) {
   EXPECT_NEAR(response.samples()[0].normal_force / gram_force, 3.25628, 0.02 * 3.25628);
   EXPECT_NEAR(response.samples()[1].normal_force / gram_force, 19.42179, 0.02 * 19.42179);
   EXPECT_TRUE(std::isnan(response.samples()[0].time)) << "there is none";
+}
+
+// From the fields of lattice and continuum; Hertz' 3 pi/16 mu N a is not far.
+TEST(Run, TheLimitSurfaceOfAPress) {
+  const Workplace folder;
+  const Words stick = {"press.mode=static", "press.contact=stick", "lattice.spacing=tip_radius/8",
+                       R"(press.samples=["0.1 cm", "0.2 cm"])"};
+  folder.run("press --out run", stick);
+  const std::string screen = folder.run("limit-surface run").out;
+  EXPECT_TRUE(says(screen, {"Greatest moment/mu", "gamma = 0.2", "limit_surface.csv"})) << screen;
+  const auto table = fingertip::meshes::read_csv(folder / "run/limit_surface.csv");
+  ASSERT_GT(table.rows.size(), 20U);
+  const double force = folder.response("run").samples()[0].normal_force;
+  const auto samples = table.numbers("sample"), forces = table.numbers("force [N]"),
+             moments = table.numbers("moment [N m]");
+  double greatest = 0.0, most = 0.0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (samples[i] != 1.0) continue;
+    greatest = std::max(greatest, forces[i]);
+    most = std::max(most, moments[i]);
+  }
+  EXPECT_NEAR(greatest, force, 1e-6 * force);
+  const double radius = folder.response("run").samples()[0].contact_radius;
+  EXPECT_NEAR(most, 0.589 * force * radius, 0.03 * most);
+  folder.run("press --out slides", stick + Words{"press.contact=frictionless"});
+  EXPECT_TRUE(says(folder.run("limit-surface slides", {}, 2).err, "without friction"));
+  EXPECT_TRUE(says(folder.run("limit-surface", {}, 2).err, "no run folder"));
+  EXPECT_TRUE(says(folder.run("limit-surface run slides/nothing", {}, 2).err, "no such folder"));
 }
 
 // Pressed first and moved then: on the screen, in the folder, on its page and beside another run.

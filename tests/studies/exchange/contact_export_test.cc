@@ -147,18 +147,50 @@ TEST(ContactExport, AMeshNeedsOnePress) {
   EXPECT_FALSE(folder.has("run/continuum/2"));
 }
 
+/// What MuJoCo makes of the folder "run"; null where it fails.
+json pressed_in_mujoco(const Workplace& folder) {
+  const std::string press =
+      "node '" FINGERTIP_SOURCES "/tests/studies/exchange/press_in_mujoco.mjs' '" FINGERTIP_MUJOCO
+      "' '" +
+      (folder / "run").string() + "' > '" + (folder / "forces.json").string() + "'";
+  return std::system(press.c_str()) == 0 ? folder.json("forces.json") : json();
+}
+
+/// Friction lets go of a turn about the normal where transfer.json says; the model's one length is
+/// right in the middle of the loads.
+TEST(ContactExport, MuJoCoTurnsAsForetold) {
+  if (!std::filesystem::exists(FINGERTIP_MUJOCO))
+    GTEST_SKIP() << "MuJoCo is not installed: ./fingertip test installs it";
+  const Workplace folder;
+  folder.run(to("mujoco"), quick + Words{"press.contact=coulomb", "press.friction=0.6"});
+  const json obstacle = folder.json("run/transfer.json")["obstacles"][0];
+  ASSERT_EQ(obstacle["torsion"].size(), 1U);
+  const json& torsion = obstacle["torsion"][0];
+  const json forces = pressed_in_mujoco(folder);
+  ASSERT_FALSE(forces.is_null());
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double foretold = torsion["model_moment"][i];
+    EXPECT_NEAR(forces["torsion"][i].get<double>() / foretold, 1.0, 0.05) << i;
+    // Of Hertz' pressure 3 pi/16 mu N a; the radius is that of a dome of 10 mm, 1 to 5 mm.
+    const double arm =
+        torsion["moment"][i].get<double>() / (0.6 * 0.589 * obstacle["force"][i].get<double>());
+    EXPECT_GT(arm, 1e-3);
+    EXPECT_LT(arm, 6e-3);
+  }
+  EXPECT_GT(torsion["error"].front().get<double>(), 0.0);
+  EXPECT_LT(torsion["error"].back().get<double>(), 0.0);
+  EXPECT_TRUE(says(folder.text("run/finger_rigid.xml"), "condim=\"4\""));
+  EXPECT_TRUE(says(folder.text("run/README.md"), "about the normal"));
+}
+
 /// At the servo's target; and its README tells which version it needs.
 TEST(ContactExport, MuJoCoPressesAsForetold) {
-  const std::string library = FINGERTIP_MUJOCO;
-  if (!std::filesystem::exists(library))
+  if (!std::filesystem::exists(FINGERTIP_MUJOCO))
     GTEST_SKIP() << "MuJoCo is not installed: ./fingertip test installs it";
   const Workplace folder;
   const ProgramResult made = folder.run(to("mujoco"), slips);
-  const std::string press =
-      "node '" FINGERTIP_SOURCES "/tests/studies/exchange/press_in_mujoco.mjs' '" + library +
-      "' '" + (folder / "run").string() + "' > '" + (folder / "forces.json").string() + "'";
-  ASSERT_EQ(std::system(press.c_str()), 0);
-  const json forces = folder.json("forces.json");
+  const json forces = pressed_in_mujoco(folder);
+  ASSERT_FALSE(forces.is_null());
   const json models = folder.json("run/transfer.json")["obstacles"][0]["models"];
   int compared = 0;
   for (const auto& [file, model] : {std::pair("finger_rigid.xml", 0), {"finger_flex.xml", 1}})

@@ -1,5 +1,7 @@
 // Presses what `fingertip export --format mujoco` has written, in MuJoCo itself, to the depths of its
-// transfer.json. Prints the forces as JSON: {"finger_rigid.xml": [...], "finger_flex.xml": [...]}.
+// transfer.json. Prints the forces as JSON: {"finger_rigid.xml": [...], "finger_flex.xml": [...]}; where
+// that tells of torsion, also the moments that friction holds when the rigid finger is turned on its
+// obstacle, {"torsion": [...]}.
 //
 //   node press_in_mujoco.mjs .../@mujoco/mujoco/mujoco.js FOLDER
 import fs from 'fs';
@@ -9,10 +11,11 @@ import {pathToFileURL} from 'url';
 const [library, folder] = process.argv.slice(2);
 const mujoco = await (await import(pathToFileURL(library))).default();
 const transfer = JSON.parse(fs.readFileSync(path.join(folder, 'transfer.json'), 'utf8'));
-const {indentation, models} = transfer.obstacles[0];
+const {indentation, models, torsion} = transfer.obstacles[0];
 
-function load(file) {
-  const model = mujoco.MjModel.from_xml_string(fs.readFileSync(path.join(folder, file), 'utf8'));
+function load(file, change = text => text) {
+  const text = change(fs.readFileSync(path.join(folder, file), 'utf8'));
+  const model = mujoco.MjModel.from_xml_string(text);
   return {model, data: new mujoco.MjData(model)};
 }
 
@@ -53,6 +56,30 @@ function flex() {
   });
 }
 
+// On a joint about the normal, turned faster and faster. Friction is viscous at first; once it is used
+// up, MuJoCo's contact answers with a larger normal force, too: the moment then.
+function turned() {
+  const joint = '<joint name="press" type="slide" axis="0 0 1"/>';
+  const turning = text => text.replace(joint, joint + '<joint name="turn" type="hinge" axis="0 0 1"/>');
+  const world = load('finger_rigid.xml', turning);
+  // As the README says of what the geom hangs on.
+  const heavier = world.model.body_invweight0[2] / load('finger_rigid.xml').model.body_invweight0[2];
+  world.model.geom_solref[2] *= heavier;
+  world.model.geom_solref[3] *= Math.sqrt(heavier);
+  return indentation.map(depth => {
+    world.data.ctrl[0] = depth;
+    rest(world, 0.3, () => { world.data.qvel[1] = 0; });
+    const still = world.data.efc_force[0];
+    for (let speed = 1e-4; speed < 1e3; speed *= 1.01) {
+      world.data.qvel[1] = speed;
+      mujoco.mj_step(world.model, world.data);
+      if (world.data.efc_force[0] > 1.005 * still) return Math.abs(world.data.qfrc_constraint[1]);
+    }
+    return null;
+  });
+}
+
 const forces = {'finger_rigid.xml': rigid()};
+if (torsion.length > 0) forces.torsion = turned();
 if (models.length > 1) forces['finger_flex.xml'] = flex();
 console.log(JSON.stringify(forces));

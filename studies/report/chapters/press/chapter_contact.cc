@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/press/limit_surface.h"
 #include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/words.h"
 
@@ -128,6 +129,42 @@ Figure map_figure(const std::vector<RunContact>& runs, const std::vector<Contact
   return figure;
 }
 
+bool is_held(std::span<const meshes::ContactPoint> field) {
+  return std::ranges::any_of(field, [](const meshes::ContactPoint& point) {
+    return point.state == meshes::ContactState::stick || !point.shear.isZero(0.0);
+  });
+}
+
+/// Moment over force at which the contacts slide as a whole, per unit of friction and of N, and of
+/// N a; the ellipse of the first.
+Figure limit_figure(const std::vector<RunContact>& runs, const ContactsAtDepth& contacts) {
+  Panel panel{.x_label = "force/(μ N)",
+              .y_label = "moment/(μ N a)",
+              .x_range = Range{0.0, 1.05},
+              .y_range = Range{0.0},
+              .key = "outside right top"};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const meshes::LimitSurface surface = limit_surface(contacts.fields[i]);
+    if (surface.points.empty()) continue;
+    const double arm = surface.normal_force * surface.radius;
+    if (panel.series.empty()) {
+      Series ellipse{"ellipse", "", {"#999999", "(2,3)", 1.5}};
+      constexpr int steps = 60;
+      for (int s = 0; s <= steps; ++s) {
+        const double angle = 0.5 * std::acos(-1.0) * s / steps;
+        ellipse.add(std::cos(angle), surface.moment_share() * std::sin(angle));
+      }
+      panel.series.push_back(std::move(ellipse));
+    }
+    Series series{runs[i].label.empty() ? "its pressure" : runs[i].label, "",
+                  runs[i].style.as_line()};
+    for (const meshes::LimitPoint& point : surface.points)
+      series.add(point.force / surface.normal_force, point.moment / arm);
+    panel.series.push_back(std::move(series));
+  }
+  return {"limit_surface", 760, 380, 1, {std::move(panel)}};
+}
+
 /// A pressure's difference, and the others beneath it.
 Cell difference_cell(const ContactDifference& d) {
   if (std::isnan(d.pressure_l2)) return {};
@@ -164,6 +201,13 @@ Chapter contact_chapter(const std::vector<RunContact>& all) {
   const std::vector<ContactMap> maps = maps_of(depths.back());
   if (!(maps.front().pressure.maxCoeff() > 0.0)) return {};  // points in a line
   chapter.figures = {section_figure(runs, maps), map_figure(runs, maps)};
+  const auto& first = depths.back().fields.front();
+  const meshes::LimitSurface held = limit_surface(first);
+  chapter["moment"] = shown_units().torque.text(held.greatest_moment);
+  chapter["share"] = fmt::format("{:.3f}", held.moment_share());
+  chapter["ellipse"] = percent_magnitude(held.ellipse_error);
+  if (is_held(first) && !held.points.empty())
+    chapter.figures.push_back(limit_figure(runs, depths.back()));
   if (runs.size() > 1) chapter.tables["contact"] = contact_table(runs, depths);
   return written(std::move(chapter));
 }
