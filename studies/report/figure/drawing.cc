@@ -180,8 +180,9 @@ MapScript map_script(const HeatMap& map, std::size_t index) {
                             "1 '#D55E00')"
                           : "(0 '#f7fbff', 0.35 '#9ecae1', 0.7 '#3182bd', 1 '#08306b')"),
       block + " using 1:2:3 with image notitle"};
-  script.data += fmt::format("\nset cbrange [{:.8g}:{:.8g}]\nset cblabel {}\nset colorbox\n",
-                             map.values.from, map.values.to, gnuplot_string(map.label));
+  script.data +=
+      fmt::format("\nset cbrange [{:.8g}:{:.8g}]\nset cblabel {} offset 1.5,0\nset colorbox\n",
+                  map.values.from, map.values.to, gnuplot_string(map.label));
   script.data += block + " << EOD\n";
   const GridFunction& f = map.function;
   for (std::size_t i = 0; i < f.x.size(); ++i)

@@ -101,12 +101,12 @@ Figure map_figure(const std::vector<RunContact>& runs, const std::vector<Contact
   double highest = 0.0;
   for (const ContactMap& map : maps)
     if (map.pressure.size() > 0) highest = std::max(highest, map.pressure.maxCoeff());
-  Figure figure{"contact_maps", 1200, 0, 3, {}, 90};
+  Figure figure{"contact_maps", 1220, 0, 3, {}, 110};
   if (runs.size() == 1) {
     figure.columns = 1;
     figure.width = 560;
     figure.panels = {stress_panel("", first, first.pressure, highest, "pressure")};
-    figure.right_margin = 120;
+    figure.right_margin = 130;
     if (is_sheared(first)) {
       const Eigen::ArrayXXd shear = (first.shear_x.square() + first.shear_y.square()).sqrt();
       figure.columns = 2;
