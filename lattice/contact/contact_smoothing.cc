@@ -113,4 +113,11 @@ std::vector<ContactPoint> contact_field(std::span<const TiedPoint> points,
   return smooth;
 }
 
+std::vector<ContactPoint> contact_field(std::span<const TiedPoint> points, int sectors) {
+  std::vector<ContactPoint> loaded;
+  for (const TiedPoint& tied : points)
+    if (tied.touches()) loaded.push_back(tied.point);
+  return contact_field(points, meshes::contact_patch(loaded, sectors), sectors);
+}
+
 }  // namespace fingertip::lattice::inline contact

@@ -37,5 +37,7 @@ struct TiedPoint {
 /// where there is no shear, makes force and torque those of the ties to round-off.
 std::vector<meshes::ContactPoint> contact_field(std::span<const TiedPoint> points,
                                                 const meshes::ContactPatch& patch, int sectors);
+/// With the patch of the points' own forces.
+std::vector<meshes::ContactPoint> contact_field(std::span<const TiedPoint> points, int sectors);
 
 }  // namespace fingertip::lattice::inline contact

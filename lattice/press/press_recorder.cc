@@ -133,7 +133,7 @@ void PressRecorder::note_contact(double indentation) {
   for (TiedPoint& tied : points)
     for (Vector3* vector : {&tied.point.place, &tied.point.shear, &tied.point.normal})
       *vector = to_plane * *vector;
-  add_sample(contact_field(points, finger_->contact_patch(), finger_->model().sector.count()),
+  add_sample(contact_field(points, finger_->model().sector.count()),
              int(outcome_->response.samples().size()), indentation, outcome_->contact);
 }
 

@@ -82,9 +82,6 @@ class StaticPress {
   VectorXd extrapolated(double place) const;
   bool anchor(State& next) const;
   Wrench on_rod() const;
-  meshes::ContactPatch patch() const {
-    return contact_patch(now_.contact.loaded_points(now_.displacement), body_.sectors);
-  }
   PressSample sample() const;
   FingerPicture drawn();
   void note_slopes();
@@ -251,7 +248,8 @@ Wrench StaticPress::on_rod() const {
 PressSample StaticPress::sample() const {
   const auto [force, torque] = on_rod();
   const PressPlane& plane = now_.contact.plane();
-  const meshes::ContactPatch contact = patch();
+  const meshes::ContactPatch contact =
+      contact_patch(now_.contact.loaded_points(now_.displacement), body_.sectors);
   PressSample sample;
   const meshes::PressPose pose = now_.contact.pose();
   sample.indentation = pose.indentation;
@@ -307,7 +305,7 @@ void StaticPress::note_slopes() {
 }
 
 void StaticPress::note_contact() {
-  add_sample(contact_field(now_.contact.points(now_.displacement), patch(), body_.sectors),
+  add_sample(contact_field(now_.contact.points(now_.displacement), body_.sectors),
              int(outcome_.response.samples().size()), now_.contact.pose().indentation,
              outcome_.contact);
 }

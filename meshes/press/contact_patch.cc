@@ -164,12 +164,12 @@ ContactPatch contact_patch(const std::vector<LoadedPoint>& points, int sectors) 
   return contact_patch(sums, sectors);
 }
 
-ContactPatch contact_patch(std::span<const ContactPoint> field) {
+ContactPatch contact_patch(std::span<const ContactPoint> field, int sectors) {
   ForceMoments sums;
   for (const ContactPoint& point : field)
     if (const double push = -point.force().z(); push > 0.0)
       sums.add({point.place.head<2>(), push, point.area * std::abs(point.normal.z())});
-  return contact_patch(sums);
+  return contact_patch(sums, sectors);
 }
 
 }  // namespace fingertip::meshes::inline press

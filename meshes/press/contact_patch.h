@@ -67,7 +67,7 @@ struct ContactPatch {
 /// t1, t2 >= 0. Zeros without a loaded point.
 ContactPatch contact_patch(const ForceMoments& moments, int sectors = 1);
 ContactPatch contact_patch(const std::vector<LoadedPoint>& points, int sectors = 1);
-/// Of a whole field.
-ContactPatch contact_patch(std::span<const ContactPoint> field);
+/// Of a field, along whose axes the ellipse is told.
+ContactPatch contact_patch(std::span<const ContactPoint> field, int sectors = 1);
 
 }  // namespace fingertip::meshes::inline press

@@ -178,6 +178,24 @@ TEST(PressContact, IsContinuousInTilt) {
   }
 }
 
+/// Where the rod moves aside the contact stays with it: about the same field as of the press at
+/// rest, whose rod stands still.
+TEST(PressContact, GoesAsideWithTheRod) {
+  PressSetup setup = presses::setup_of({.model = ModelKind::network,
+                                        .per_radius = 8,
+                                        .contact = ContactMode::frictionless,
+                                        .mode = meshes::DriveMode::quasi_static,
+                                        .samples = {1.5e-3}});
+  setup.protocol.lateral = 3e-3;
+  const auto moving = lattice::run_press(setup);
+  const Field field = at_sample(moving.contact, moving.response.samples().size());
+  ASSERT_FALSE(field.empty());
+  const Field resting = lattice::run_static_press(setup).contact;
+  const ContactDifference d = difference(field, at_sample(resting, 1));
+  EXPECT_LT(d.pressure_l2, 0.05);
+  EXPECT_LT(d.centre, 0.1e-3);
+}
+
 /// A slow press in time has the field of the press at rest, and its sums are its forces but for
 /// what the tip's inertia takes.
 TEST(PressContact, OfASlowPressIsThatAtRest) {
