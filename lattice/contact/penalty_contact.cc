@@ -351,8 +351,9 @@ std::vector<TiedPoint> PenaltyContact::points(const State& state, const Vector3&
       const Vector3 place = tie.rest + axes * shift(tie, state, 0.0);
       point.place = finite ? Vector3(place - travel) : tie.rest;
       point.normal = finite ? plane_.normal_at(place) : plane_.normal;
-      point.area = seen_area(tie, plane_.normal);
-      if (finite) {
+      if (!finite) {
+        point.area = seen_area(tie, plane_.normal);
+      } else {
         Eigen::Matrix<double, 3, 8> moved;
         for (int c = 0; c < 8; ++c)
           moved.col(c) = axes * state.displacement.at(tie.corners[std::size_t(c)]);

@@ -27,8 +27,6 @@ struct PressPlane {
   }
   /// Its axes t1, t2 and n as columns.
   Eigen::Matrix3d axes() const { return (Eigen::Matrix3d() << t1, t2, normal).finished(); }
-  /// Those of fields, right-handed (meshes::ContactPoint): t1, t2 and -n.
-  Eigen::Matrix3d field_axes() const { return (Eigen::Matrix3d() << t1, t2, -normal).finished(); }
 };
 
 PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry);
@@ -77,6 +75,11 @@ struct Plane {
 /// t1: the rod's x axis projected on a plane with this unit normal; t2 = t1 x normal.
 inline meshes::Vector3 first_tangent(const meshes::Vector3& normal) {
   return (meshes::Vector3::UnitX() - normal * normal.x()).normalized();
+}
+/// t1, t2 and -n as columns: the right-handed axes of contact fields (meshes::ContactPoint).
+inline Eigen::Matrix3d field_axes(const meshes::Vector3& normal) {
+  const meshes::Vector3 t1 = first_tangent(normal);
+  return (Eigen::Matrix3d() << t1, t1.cross(normal), -normal).finished();
 }
 
 }  // namespace fingertip::lattice::inline model

@@ -126,9 +126,7 @@ void PressRecorder::add_work(const PressInstant& end) {
 
 /// For the last row, at an indentation of the last step [m].
 void PressRecorder::note_contact(double indentation) {
-  const Vector3 t1 = first_tangent(normal_);
-  const Eigen::Matrix3d to_plane =
-      (Eigen::Matrix3d() << t1, t1.cross(normal_), -normal_).finished().transpose();
+  const Eigen::Matrix3d to_plane = field_axes(normal_).transpose();
   std::vector<TiedPoint> points = finger_->tied_points();
   for (TiedPoint& tied : points)
     for (Vector3* vector : {&tied.point.place, &tied.point.shear, &tied.point.normal})

@@ -186,7 +186,7 @@ double StaticContact::area(std::size_t point, const VectorXd& displacement) cons
 }
 
 std::vector<TiedPoint> StaticContact::points(const VectorXd& displacement) const {
-  const Matrix3d to_plane = plane_.field_axes().transpose();
+  const Matrix3d to_plane = field_axes(plane_.normal).transpose();
   std::vector<TiedPoint> points;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     const EmbeddedPoint& outer = body_->outer[i];

@@ -54,6 +54,9 @@ consteval auto fields_of(const ContactPoint*) {
 void add_sample(std::span<const ContactPoint> points, int sample, double indentation,
                 std::vector<ContactPoint>& field);
 
+/// The points of each sample, in the order of the field, where those of one stand together.
+std::vector<std::span<const ContactPoint>> samples_of(std::span<const ContactPoint> field);
+
 /// With its images: of a quarter (`sectors` 4) in x and y, of a half (2) in y.
 std::vector<ContactPoint> unfolded(std::span<const ContactPoint> points, int sectors);
 /// A ring about the z axis, given by its point at y = 0 and all of its area, as `count` points.

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-
 #include "meshes/base/files.h"
 #include "meshes/press/limit_surface.h"
 #include "meshes/press/press_response.h"
@@ -56,11 +53,10 @@ std::vector<double> greatest_moments(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "contact_field.csv";
   if (!std::filesystem::exists(file)) return moments;
   const auto field = meshes::read_rows<meshes::ContactPoint>(file);
-  for (int sample = 1; sample <= samples; ++sample) {
-    std::vector<meshes::ContactPoint> own;
-    std::ranges::copy_if(field, std::back_inserter(own),
-                         [sample](const auto& point) { return point.sample == sample; });
-    if (!own.empty()) moments[std::size_t(sample) - 1] = meshes::limit_point(own, 0.0).moment;
+  for (const auto points : meshes::samples_of(field)) {
+    const int sample = points.front().sample;
+    if (sample < 1 || sample > samples) continue;
+    moments[std::size_t(sample) - 1] = meshes::limit_point(points, 0.0).moment;
   }
   return moments;
 }

@@ -282,17 +282,16 @@ std::string screen_text(const Comparison& comparison, const std::vector<Chapter>
   return text;
 }
 
-std::vector<RunContact> contacts_of(const Comparison& comparison) {
-  std::vector<RunContact> contacts;
+ContactComparison contacts_of(const Comparison& comparison) {
+  std::vector<RunContact> runs;
   for (const ComparedCurve& curve : comparison.curves)
-    contacts.push_back({curve.label, curve.style, &curve.response, &curve.contact});
-  return contacts;
+    runs.push_back({curve.label, curve.style, &curve.response, &curve.contact});
+  return compared_contacts(std::move(runs));
 }
 
 /// A row per depth, of each run but the first a column per difference.
-void write_contacts(const Comparison& comparison, const fs::path& file) {
-  const std::vector<ContactsAtDepth> depths = contacts_at_depths(contacts_of(comparison));
-  if (depths.empty()) return;
+void write_contacts(const ContactComparison& contacts, const fs::path& file) {
+  if (contacts.runs.size() < 2 || contacts.depths.empty()) return;
   using meshes::ContactDifference;
   constexpr std::array<std::pair<const char*, double ContactDifference::*>, 6> columns{
       {{"pressure_l2", &ContactDifference::pressure_l2},
@@ -302,19 +301,21 @@ void write_contacts(const Comparison& comparison, const fs::path& file) {
        {"spread", &ContactDifference::spread},
        {"centre [m]", &ContactDifference::centre}}};
   std::vector<Cells> lines{{"indentation [m]"}};
-  for (std::size_t i = 1; i < comparison.curves.size(); ++i)
+  for (std::size_t i = 1; i < contacts.runs.size(); ++i)
     for (const auto& [name, value] : columns)
-      lines.front().push_back(meshes::csv_cell(comparison.curves[i].label + " " + name));
-  for (const ContactsAtDepth& here : depths) {
+      lines.front().push_back(meshes::csv_cell(contacts.runs[i].label + " " + name));
+  for (const ContactsAtDepth& here : contacts.depths) {
     Cells& cells = lines.emplace_back(Cells{meshes::to_text(here.depth)});
-    for (std::size_t i = 1; i < here.differences.size(); ++i)
-      for (const auto& [name, value] : columns)
-        cells.push_back(meshes::to_text(here.differences[i].*value));
+    for (std::size_t i = 1; i < contacts.runs.size(); ++i) {
+      const ContactDifference difference = here.difference(i);
+      for (const auto& [name, value] : columns) cells.push_back(meshes::to_text(difference.*value));
+    }
   }
   write_lines(lines, file);
 }
 
-Page comparison_page(const Comparison& comparison, FolderReader& reader) {
+Page comparison_page(const Comparison& comparison, const ContactComparison& contacts,
+                     FolderReader& reader) {
   const std::vector<ComparedCurve>& curves = comparison.curves;
   WordList remarks;
   for (const ComparisonRemark& remark : comparison.remarks) {
@@ -341,7 +342,7 @@ Page comparison_page(const Comparison& comparison, FolderReader& reader) {
     page.rejected.push_back(as_shown(reason));
   page.answer = summary_sentence(comparison);
   page.chapters.push_back(written(std::move(chapter)));
-  page.chapters.push_back(reader.attempt([&] { return contact_chapter(contacts_of(comparison)); }));
+  page.chapters.push_back(reader.attempt([&] { return contact_chapter(contacts); }));
   std::vector<fs::path> folders;
   for (const ComparedCurve& curve : curves) folders.push_back(curve.folder);
   const std::vector<MovingPress> presses = moving_presses(folders, reader);
@@ -355,12 +356,13 @@ Page comparison_page(const Comparison& comparison, FolderReader& reader) {
 ComparisonResult write_comparison(const std::vector<fs::path>& runs, const fs::path& out_folder) {
   FolderReader reader;
   const Comparison comparison = read_comparison(runs, reader);
-  const Page page = comparison_page(comparison, reader);
+  const ContactComparison contacts = contacts_of(comparison);
+  const Page page = comparison_page(comparison, contacts, reader);
   fs::create_directories(out_folder);
   publish(page, out_folder, "comparison.html");
   write_csv(comparison, out_folder / "comparison.csv");
   write_following(comparison, out_folder / "comparison_following.csv");
-  write_contacts(comparison, out_folder / "comparison_contact.csv");
+  write_contacts(contacts, out_folder / "comparison_contact.csv");
   return {screen_text(comparison, page.chapters), reader.damage()};
 }
 

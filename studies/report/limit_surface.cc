@@ -41,8 +41,7 @@ struct HeldSample {
 
 std::vector<HeldSample> held_samples(const std::vector<meshes::ContactPoint>& contact) {
   std::vector<HeldSample> samples;
-  for (const auto field :
-       grouped(contact, [](const auto&a, const auto&b) { return a.sample == b.sample; })) {
+  for (const auto field : meshes::samples_of(contact)) {
     HeldSample held{field.front().sample, field.front().indentation, limit_surface(field)};
     if (!std::isnan(held.surface.normal_force)) samples.push_back(std::move(held));
   }

@@ -238,7 +238,8 @@ class PageMaker {
   }
 
   Chapter own_contact() {
-    return contact_chapter({{"", numbered_style(0), &run_.response, &run_.contact}});
+    return contact_chapter(
+        compared_contacts({{"", numbered_style(0), &run_.response, &run_.contact}}));
   }
 
   /// The run of a static `press`.

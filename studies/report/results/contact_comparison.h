@@ -23,15 +23,19 @@ struct ContactsAtDepth {
   double depth = meshes::unknown;  ///< [m]
   /// Per run; empty where it has none there.
   std::vector<std::span<const meshes::ContactPoint>> fields;
-  std::vector<meshes::ContactDifference> differences;  ///< per run, from the first
+  std::vector<meshes::ContactMap> maps;  ///< of these, on one raster
 
-  /// One raster for all fields.
-  meshes::Raster raster() const { return meshes::raster_around(fields, places); }
-  static constexpr Eigen::Index places = 81;  ///< along each side, one in the middle
+  /// Of a run from the first one; unknown where it has no field here.
+  meshes::ContactDifference difference(std::size_t run) const;
 };
 
-/// At samples of the first one's press, by increasing depth, runs without a field left out; all of
-/// one's own where there is one alone.
-std::vector<ContactsAtDepth> contacts_at_depths(const std::vector<RunContact>& runs);
+struct ContactComparison {
+  std::vector<RunContact> runs;         ///< those with a field
+  std::vector<ContactsAtDepth> depths;  ///< increasing
+};
+
+/// At samples of the first run's press, of those that have a field at all, where another has one,
+/// too; of a run alone at its deepest.
+ContactComparison compared_contacts(std::vector<RunContact> runs);
 
 }  // namespace fingertip::studies::report::inline results

@@ -207,10 +207,12 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   take_summary(run, reader);
   run.parameters = reader.text(folder / "parameters.toml");
   run.response = reader.response(folder / "response.csv");
-  run.contact = reader.rows<meshes::ContactPoint>(folder / "contact_field.csv");
   run.modes = reader.attempt([&] { return vibration_modes(reader.csv(folder / "modes.csv")); });
   const fs::path continuum = is_continuum(folder) ? folder : folder / "reference";
-  if (continuum != folder) reader.note_missing(continuum);
+  if (continuum != folder) {
+    reader.note_missing(continuum);
+    run.contact = reader.rows<meshes::ContactPoint>(folder / "contact_field.csv");
+  }
   run.continuum = reader.take<fem_reference::RunSummary>(reader.json(continuum / "summary.json"));
   run.reference = reader.response(continuum / "response.csv");
   run.reference_job = reader.json(continuum / "job.json");

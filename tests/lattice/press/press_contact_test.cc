@@ -68,7 +68,8 @@ ContactDifference difference(const Field& field, const Field& first) {
 /// Force and torque about the rod's endpoint, along the field's axes, of every sample.
 void expect_sums(const PressSetup& setup, const std::vector<PressSample>& samples,
                  const std::vector<ContactPoint>& contact, double tolerance) {
-  const Eigen::Matrix3d axes = lattice::press_plane(setup.protocol, setup.geometry).field_axes();
+  const Eigen::Matrix3d axes =
+      lattice::field_axes(lattice::press_plane(setup.protocol, setup.geometry).normal);
   const Vector3 endpoint = axes.transpose() * setup.geometry.rod_endpoint();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const PressSample& sample = samples[i];

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "meshes/tables/table_rows.h"
@@ -60,6 +61,18 @@ TEST(ContactField, ARingIsEvenAllAround) {
   EXPECT_NEAR((sums.force - Vector3(0.0, 0.0, -9e-3)).norm(), 0.0, 1e-16);
   EXPECT_NEAR((sums.torque - Vector3(0.0, 0.0, 2e-3 * 1e-3)).norm(), 0.0, 1e-18);  // twisted
   EXPECT_NEAR(meshes::centre_of_pressure(points).head<2>().norm(), 0.0, 1e-17);
+}
+
+TEST(ContactField, IsTakenApartBySamples) {
+  EXPECT_TRUE(meshes::samples_of({}).empty());
+  std::vector<ContactPoint> field;
+  meshes::add_sample(meshes::unfolded(one, 2), 2, 2e-3, field);
+  meshes::add_sample(one, 5, 3e-3, field);
+  const auto samples = meshes::samples_of(field);
+  ASSERT_EQ(samples.size(), 2u);
+  EXPECT_EQ(samples[0].size(), 2u);
+  EXPECT_EQ(samples[1].size(), 1u);
+  EXPECT_EQ(samples[1].front().sample, 5);
 }
 
 TEST(ContactField, IsReadAsItWasWritten) {

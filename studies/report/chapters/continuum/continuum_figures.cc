@@ -51,8 +51,7 @@ struct PressureProfile {
 
 std::vector<PressureProfile> pressure_profiles(const RunData& run) {
   std::vector<PressureProfile> profiles;
-  for (const auto points : grouped(
-           run.reference_contact, [](const auto&a, const auto&b) { return a.sample == b.sample; })) {
+  for (const auto points : meshes::samples_of(run.reference_contact)) {
     const double depth = points.front().indentation;
     // At full depth others may follow, of a lateral motion.
     if (!profiles.empty() && same_depth(profiles.back().depth, depth)) continue;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "meshes/press/limit_surface.h"
 #include "studies/report/chapters/press/press_chapters.h"
@@ -16,13 +17,6 @@ using meshes::ContactMap;
 
 /// Runs beside the first one that a figure has room for.
 constexpr std::size_t max_maps = 3;
-
-std::vector<ContactMap> maps_of(const ContactsAtDepth& contacts) {
-  std::vector<ContactMap> maps;
-  for (const auto& field : contacts.fields)
-    maps.push_back(field.empty() ? ContactMap() : contact_map(field, contacts.raster()));
-  return maps;
-}
 
 /// A quantity of a map along t1, in the middle.
 Series section_of(const RunContact& run, const ContactMap& map, Eigen::ArrayXXd ContactMap::*of) {
@@ -173,42 +167,39 @@ Cell difference_cell(const ContactDifference& d) {
   return {percent_magnitude(d.pressure_l2), note};
 }
 
-Table contact_table(const std::vector<RunContact>& runs,
-                    const std::vector<ContactsAtDepth>& depths) {
+Table contact_table(const ContactComparison& contacts) {
   Table table{heads({"Indentation\n" + unit_name(shown_units().length)})};
-  for (std::size_t i = 1; i < runs.size(); ++i) table.header.emplace_back(runs[i].label);
-  for (const ContactsAtDepth& here : depths) {
+  for (std::size_t i = 1; i < contacts.runs.size(); ++i)
+    table.header.emplace_back(contacts.runs[i].label);
+  for (const ContactsAtDepth& here : contacts.depths) {
     auto& row = table.rows.emplace_back();
     row.push_back(fmt::format("{:.4g}", shown_units().length(here.depth)));
-    for (std::size_t i = 1; i < runs.size(); ++i)
-      row.push_back(difference_cell(here.differences[i]));
+    for (std::size_t i = 1; i < contacts.runs.size(); ++i)
+      row.push_back(difference_cell(here.difference(i)));
   }
   return table;
 }
 
 }  // namespace
 
-Chapter contact_chapter(const std::vector<RunContact>& all) {
-  std::vector<RunContact> runs;
-  for (const RunContact& run : all)
-    if (!run.contact->empty()) runs.push_back(run);
-  const std::vector<ContactsAtDepth> depths = contacts_at_depths(runs);
-  if (depths.empty()) return {};
+Chapter contact_chapter(const ContactComparison& contacts) {
+  if (contacts.depths.empty()) return {};
+  const std::vector<RunContact>& runs = contacts.runs;
+  const ContactsAtDepth& deepest = contacts.depths.back();
+  if (!(deepest.maps.front().pressure.maxCoeff() > 0.0)) return {};  // points in a line
   ChapterData chapter("contact");
   chapter["compared"] = runs.size() > 1;
   chapter["first"] = runs.front().label;
-  chapter["depth"] = length(depths.back().depth);
-  const std::vector<ContactMap> maps = maps_of(depths.back());
-  if (!(maps.front().pressure.maxCoeff() > 0.0)) return {};  // points in a line
-  chapter.figures = {section_figure(runs, maps), map_figure(runs, maps)};
-  const auto& first = depths.back().fields.front();
+  chapter["depth"] = length(deepest.depth);
+  chapter.figures = {section_figure(runs, deepest.maps), map_figure(runs, deepest.maps)};
+  const auto& first = deepest.fields.front();
   const meshes::LimitSurface held = limit_surface(first);
   chapter["moment"] = shown_units().torque.text(held.greatest_moment);
   chapter["share"] = fmt::format("{:.3f}", held.moment_share());
   chapter["ellipse"] = percent_magnitude(held.ellipse_error);
   if (is_held(first) && !held.points.empty())
-    chapter.figures.push_back(limit_figure(runs, depths.back()));
-  if (runs.size() > 1) chapter.tables["contact"] = contact_table(runs, depths);
+    chapter.figures.push_back(limit_figure(runs, deepest));
+  if (runs.size() > 1) chapter.tables["contact"] = contact_table(contacts);
   return written(std::move(chapter));
 }
 
@@ -218,7 +209,7 @@ Chapter contact_chapter(const RunData& run) {
   for (const ModelData& model : run.models)
     runs.push_back(
         {model_label(model.name), model_style(model.name), &model.response, &model.contact});
-  return contact_chapter(runs);
+  return contact_chapter(compared_contacts(std::move(runs)));
 }
 
 }  // namespace fingertip::studies::report::inline chapters::inline press

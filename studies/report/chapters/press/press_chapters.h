@@ -39,7 +39,7 @@ Table sample_table(SampleRange samples, const SampleColumn& over);
 Table stage_table(const std::vector<StageEntry>& stages);
 /// Pressure and shear of runs beside the first one, of that alone where it is alone; without blocks
 /// when no depth has a field.
-Chapter contact_chapter(const std::vector<RunContact>& runs);
+Chapter contact_chapter(const ContactComparison& contacts);
 /// Of the continuum and the lattices.
 Chapter contact_chapter(const RunData& run);
 /// Force and contact radius of one press; without blocks when it has no sample. Of a program the
