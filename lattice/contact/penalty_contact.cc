@@ -365,7 +365,8 @@ std::vector<TiedPoint> PenaltyContact::points(const State& state, const Vector3&
                                       memory.force[2].at[lane])
                             : Vector3::Zero()));
       if (free) point.shear.setZero();  // but for round-off it is
-      const bool sticks = acts && !free && memory.sliding.at[lane] == 0.0;
+      const bool holds = acts && memory.sliding.at[lane] == 0.0;
+      const bool sticks = law_.mode == meshes::ContactMode::stick || (holds && !free);
       point.state = sticks ? meshes::ContactState::stick : meshes::ContactState::slip;
     }
   }

@@ -2,9 +2,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace fingertip::meshes::inline press {
+
+namespace {
+
+/// Nearer than a picometre to a mirror plane is on it.
+constexpr double on_plane = 1e-12;
+
+}  // namespace
 
 void ContactPoint::set_force(const Vector3& force) {
   const Vector3 traction = force / area;
@@ -38,6 +46,12 @@ std::vector<ContactPoint> unfolded(std::span<const ContactPoint> points, int sec
   const auto add_images = [&all](int axis) {
     const std::size_t count = all.size();
     for (std::size_t i = 0; i < count; ++i) {
+      if (std::abs(all[i].place[axis]) < on_plane) {
+        all[i].area *= 2.0;
+        for (Vector3* vector : {&all[i].place, &all[i].shear, &all[i].normal})
+          (*vector)[axis] = 0.0;
+        continue;
+      }
       ContactPoint image = all[i];
       for (Vector3* vector : {&image.place, &image.shear, &image.normal})
         (*vector)[axis] = -(*vector)[axis];

@@ -57,7 +57,8 @@ void add_sample(std::span<const ContactPoint> points, int sample, double indenta
 /// The points of each sample, in the order of the field, where those of one stand together.
 std::vector<std::span<const ContactPoint>> samples_of(std::span<const ContactPoint> field);
 
-/// With its images: of a quarter (`sectors` 4) in x and y, of a half (2) in y.
+/// With its images: of a quarter (`sectors` 4) in x and y, of a half (2) in y. A point on a mirror
+/// plane, which bears what is on this side of it, becomes one with its image.
 std::vector<ContactPoint> unfolded(std::span<const ContactPoint> points, int sectors);
 /// A ring about the z axis, given by its point at y = 0 and all of its area, as `count` points.
 std::vector<ContactPoint> turned_around(const ContactPoint& ring, int count);

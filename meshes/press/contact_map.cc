@@ -78,6 +78,12 @@ class Interpolation {
         near.insert(j);
         near.insert(around[j].begin(), around[j].end());
       }
+      // Not those beyond a gap.
+      if (!patch_.is_ellipse())
+        std::erase_if(near, [&](std::size_t j) {
+          const Vector2d way = (field_[j].place - field_[i].place).head<2>();
+          return way.squaredNorm() > 4.0 * gap * gap * field_[i].area;
+        });
       planes_.push_back(plane_through(i, near));
     }
   }

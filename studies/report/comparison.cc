@@ -53,7 +53,12 @@ Cells with_forces(Cells cells, const std::vector<ComparedForce>& forces, bool te
   return cells;
 }
 
+/// No file without a row, nor an older one.
 void write_lines(const std::vector<Cells>& lines, const fs::path& file) {
+  if (lines.size() < 2) {
+    fs::remove(file);
+    return;
+  }
   meshes::write_atomically(file, [&](std::ostream& out) {
     for (const Cells& cells : lines) out << fmt::format("{}\n", fmt::join(cells, ","));
   });
@@ -70,7 +75,6 @@ void write_csv(const Comparison& comparison, const fs::path& file) {
 
 /// What followed the first loading.
 void write_following(const Comparison& comparison, const fs::path& file) {
-  if (comparison.following.empty()) return;
   std::vector<Cells> lines{with_curves({"stage", "time [s]", "indentation [m]"}, comparison,
                                        {"normal_force [N]", "relative_difference"})};
   for (const FollowingRow& row : comparison.following)
@@ -291,7 +295,7 @@ ContactComparison contacts_of(const Comparison& comparison) {
 
 /// A row per depth, of each run but the first a column per difference.
 void write_contacts(const ContactComparison& contacts, const fs::path& file) {
-  if (contacts.runs.size() < 2 || contacts.depths.empty()) return;
+  if (contacts.runs.size() < 2) return write_lines({}, file);
   using meshes::ContactDifference;
   constexpr std::array<std::pair<const char*, double ContactDifference::*>, 6> columns{
       {{"pressure_l2", &ContactDifference::pressure_l2},

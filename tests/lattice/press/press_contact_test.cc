@@ -218,6 +218,7 @@ TEST(PressContact, OfASlowPressIsThatAtRest) {
                 0.02 * sample.normal_force);
     const Field other = at_sample(resting.contact, std::size_t(compared));
     EXPECT_LT(difference(field, other).pressure_l2, 0.02) << sample.indentation;
+    for (const ContactPoint& point : field) EXPECT_EQ(point.state, meshes::ContactState::stick);
   }
   EXPECT_EQ(compared, 2);
 }

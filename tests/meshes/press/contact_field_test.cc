@@ -48,6 +48,19 @@ TEST(ContactField, ImagesBearTheirShare) {
   EXPECT_NEAR(of_quarter.torque.norm(), 0.0, 1e-18);
 }
 
+/// A node on a mirror plane bears half: with its image it is one point with all.
+TEST(ContactField, APointOnAMirrorPlaneIsOne) {
+  const ContactPoint on_y = point_at({1e-3, 0.0, 9e-3}, {0.1, 0.0, -1.0}, {1e-3, 0.0, -9e-3}),
+                     middle = point_at({0.0, 1e-17, 9e-3}, {0.0, 0.0, -1.0}, {0.0, 0.0, -1e-3});
+  const auto field = meshes::unfolded(std::vector<ContactPoint>{on_y, middle}, 4);
+  ASSERT_EQ(field.size(), 3u);
+  const auto sums = meshes::sums_of(field, Vector3::Zero());
+  EXPECT_NEAR((sums.force - Vector3(0.0, 0.0, -40e-3)).norm(), 0.0, 1e-16);
+  EXPECT_EQ(field[0].normal_traction, on_y.normal_traction);
+  EXPECT_EQ(field[0].area, 2.0 * on_y.area);
+  EXPECT_EQ(field[1].area, 4.0 * middle.area);
+}
+
 TEST(ContactField, ARingIsEvenAllAround) {
   const ContactPoint ring = point_at({2e-3, 0.0, 9e-3}, {0.3, 0.0, -1.0}, {2e-3, 1e-3, -9e-3});
   const std::vector<ContactPoint> points = meshes::turned_around(ring, 24);

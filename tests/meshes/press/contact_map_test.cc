@@ -109,7 +109,32 @@ TEST(ContactMap, TellsWhatDiffers) {
   EXPECT_NEAR(grown.peak, 0.0, 5e-3);
 }
 
-/// Two pads bear alike all over; between them nothing does.
+/// Of a quarter, with points on its mirror planes, a shear that is linear is linear on them, too.
+TEST(ContactMap, GoesThroughMirrorPlanes) {
+  Field quarter;
+  constexpr double spacing = 0.1;
+  for (int i = 0; i <= 10; ++i)
+    for (int j = 0; j <= 10; ++j) {
+      const double r = std::hypot(i, j) * spacing;
+      if (r >= 1.0) continue;
+      ContactPoint& point = quarter.emplace_back();
+      point.place = {i * spacing, j * spacing, 0.0};
+      point.area = spacing * spacing * (i == 0 ? 0.5 : 1.0) * (j == 0 ? 0.5 : 1.0);
+      point.normal_traction = hertz(r);
+      point.shear = {0.3 * i * spacing, 0.3 * j * spacing, 0.0};
+    }
+  const Field field = meshes::unfolded(quarter, 4);
+  const std::array<std::span<const ContactPoint>, 1> own{field};
+  const auto map = contact_map(field, meshes::raster_around(own, 81));
+  for (Eigen::Index i = 0; i < 81; ++i) {
+    const double x = map.raster.x(i);
+    if (std::abs(x) > 0.8) continue;
+    EXPECT_NEAR(map.shear_x(i, 40), 0.3 * x, 1e-9) << x;
+    EXPECT_NEAR(map.pressure(i, 40), hertz(x), 0.01) << x;
+  }
+}
+
+/// Two pads, each alike all over; between them nothing bears.
 TEST(ContactMap, OfWhatIsNoEllipse) {
   Field pads;
   for (int i = -20; i < 20; ++i)
@@ -118,14 +143,14 @@ TEST(ContactMap, OfWhatIsNoEllipse) {
       ContactPoint& point = pads.emplace_back();
       point.place = {0.1 * (i + 0.5), 0.1 * (j + 0.5), 0.0};
       point.area = 0.01;
-      point.normal_traction = 5.0;
+      point.normal_traction = i < 0 ? 5.0 : 1.0;
     }
   const std::array<std::span<const ContactPoint>, 1> own{pads};
   const auto map = contact_map(pads, meshes::raster_around(own, 81));
   for (Eigen::Index i = 0; i < 81; ++i) {
     const double x = std::abs(map.raster.x(i)), there = map.pressure(i, 40);
     if (x > 0.95 && x < 1.9) {
-      EXPECT_NEAR(there, 5.0, 1e-9) << x;
+      EXPECT_NEAR(there, map.raster.x(i) < 0.0 ? 5.0 : 1.0, 1e-9) << x;
     }
     if (x > 2.0 || x < 0.65) {
       EXPECT_EQ(there, 0.0) << x;

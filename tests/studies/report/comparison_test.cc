@@ -88,6 +88,16 @@ TEST(Comparison, TellsHowContactsDiffer) {
   }
   EXPECT_TRUE(says(screen, "7.0 % (largest +10.0 %, radius 0 %)")) << screen;
   EXPECT_TRUE(says(read_text(out / "comparison.html"), "<section id=\"contact\">"));
+
+  // A run without a field is left out, in the file as on the page, and none leaves none.
+  write_line(folder.path() / "bare", 1.1, 0.002);
+  const std::string three =
+      studies::report::write_comparison({folder.path() / "bare", runs[0], runs[1]}, out).text;
+  EXPECT_TRUE(says(three, "beside that of soft")) << three;
+  EXPECT_EQ(cells(read_text(out / "comparison_contact.csv")), rows);
+  studies::report::write_comparison({folder.path() / "bare", runs[0]}, out);
+  EXPECT_FALSE(fs::exists(out / "comparison_contact.csv"));
+  EXPECT_TRUE(says(read_text(out / "comparison.html"), "The contact of soft at"));
 }
 
 TEST(Comparison, GivesDifferencesRelativeToTheFirstRun) {
