@@ -101,8 +101,12 @@ TEST(ContinuumPress, StickStoresTheWorkOfItsForce) {
 TEST(ContinuumPress, PressuresArePositiveAndAddUp) {
   ReferenceJob job = small_press();
   const PressState state = pressed(job);
-  EXPECT_EQ(int(state.contact.size()), 4 * state.active_nodes);  // of a quarter
-  for (const meshes::ContactPoint& point : state.contact) EXPECT_GE(point.normal_traction, 0.0);
+  int in_quarter = 0;  // what was computed; on its mirror planes a node is its own image
+  for (const meshes::ContactPoint& point : state.contact) {
+    EXPECT_GE(point.normal_traction, 0.0);
+    in_quarter += point.place.x() >= 0.0 && point.place.y() >= 0.0;
+  }
+  EXPECT_EQ(in_quarter, state.active_nodes);
   const double a = state.contact_radius;
   EXPECT_NEAR(a, 3.494e-3, state.node_spacing);
   // Hertz's profile has 1.5 times the mean pressure at the pole; the bond makes it steeper.
