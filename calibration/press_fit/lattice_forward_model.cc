@@ -53,9 +53,17 @@ void check(const PressSetup& setup, const std::vector<MaterialParameter>& parame
   std::vector<meshes::Violation> found;
   if (parameters.empty())
     found.push_back({"parameters", "none", "a fit needs a free parameter", "name at least one"});
-  if (setup.protocol.slides_after())
-    found.push_back({"press.lateral_path", std::string(name(setup.protocol.lateral_path)),
-                     "forces are fitted against indentation", "choose diagonal"});
+  if (setup.protocol.moves_after())
+    found.push_back({setup.protocol.has_twist() ? "press.twist" : "press.lateral_path",
+                     setup.protocol.has_twist() ? meshes::to_text(setup.protocol.twist) + " rad"
+                                                : std::string(name(setup.protocol.lateral_path)),
+                     "forces are fitted against indentation",
+                     "choose press.lateral_path = diagonal and no twist"});
+  if (setup.protocol.contact == meshes::ContactMode::coulomb &&
+      setup.protocol.mode == meshes::DriveMode::equilibrium)
+    found.push_back({"press.contact", "coulomb",
+                     "slopes of a static press are known where it sticks or is free of friction",
+                     "choose stick or frictionless"});
   if (!setup.protocol.program.empty())
     found.push_back({"press.program", "given",
                      "forces are fitted against the indentation of one press", "leave it out"});

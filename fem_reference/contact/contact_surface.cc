@@ -8,12 +8,16 @@ std::vector<SurfaceNode> within_reach(const std::vector<SurfaceNode>& nodes,
                                       const meshes::PressProtocol& protocol, double height,
                                       double reach) {
   // An obstacle is highest at its top: the place of its path where that is nearest counts.
-  const auto [low, high] = std::minmax(0.0, protocol.lateral);
+  const auto [low, high] = protocol.lateral_range();
   std::vector<SurfaceNode> result;
   for (const SurfaceNode& node : nodes) {
     meshes::Vector3 at = node.position;
     at.x() -= std::clamp(at.x() - protocol.obstacle.offset, low, high);
-    if (at.z() + meshes::height(protocol.obstacle, at) >= height - reach) result.push_back(node);
+    // Where it turns, a flat top may come to any place that an obstacle's top keeps away from.
+    const double above = protocol.twists() && !protocol.obstacle.on_axis()
+                             ? 0.0
+                             : meshes::height(protocol.obstacle, at);
+    if (at.z() + above >= height - reach) result.push_back(node);
   }
   return result;
 }

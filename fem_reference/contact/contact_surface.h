@@ -18,8 +18,8 @@ struct SurfaceNode {
   std::array<long, 3> unknown{};  ///< of its displacement along x, y, z
   std::array<bool, 3> free{};     ///< false where a symmetry plane or the bond holds it
   double area = 0.0;  ///< entry of the lumped (Gauss-Lobatto) surface mass [m²]; 0: a pole
-  /// How far a force on it spreads, so that G times this is about its stiffness: sqrt(area) of a
-  /// solid's node, the circumference of the ring for which a meridian's stands [m].
+  /// Its area over its width: sqrt(area) of a solid's node, the circumference of the ring for which
+  /// a meridian's stands [m].
   double extent = 0.0;
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "fem_reference/contact/anderson_mixing.h"
 #include "meshes/base/errors.h"
 
 namespace fingertip::fem_reference::inline contact {
@@ -22,11 +23,14 @@ constexpr double gap_noise = 1e-12;
 /// A node that comes as near as this share of its width is expected to touch: what is foreknown is
 /// a solution on another mesh.
 constexpr double foreseen_touch = 1e-2;
+/// Rounds after which what slides does not stick again: it may turn back and forth.
+constexpr int friction_patience = 20;
+/// rho in G times a node's area over the root of the contact's: with that of a disc on a half
+/// space, 4.5, all nodes together turn at once; with more, neighbours go by themselves sooner.
+constexpr double slip_stiffness = 8.0;
 /// Friction forces have converged when a round changes none by more than this, over the largest
 /// push.
-constexpr double friction_converged = 1e-9;
-/// Rounds after which friction forces are changed by half of what they should be.
-constexpr int friction_patience = 60;
+constexpr double friction_converged = 1e-11;
 
 /// Itself for a node with area, the nearest of those for one without; itself where there is none.
 std::vector<std::size_t> leaders_of(const std::vector<SurfaceNode>& nodes) {
@@ -57,6 +61,7 @@ PlaneContact::PlaneContact(ContactUnknowns unknowns, ContactMode mode, const Pla
       friction_(friction),
       shear_modulus_(shear_modulus),
       obstacle_(obstacle),
+      finite_(finite),
       frames_(finite && !obstacle.is_plane() ? unknowns_.nodes.size() : 0) {
   const std::size_t nodes = unknowns_.nodes.size();
   const auto zero = Eigen::VectorXd::Zero(Eigen::Index(unknowns_.unknowns.size()));
@@ -123,10 +128,13 @@ PlaneContact::GapAndNormal PlaneContact::gap_and_normal(const meshes::Vector3& r
                                                         const PlanePose& pose) const {
   const meshes::Vector3 out(0.0, 0.0, -1.0);
   const double over = pose.height - rest.z() - displacement.z();
-  if (!curved()) return {over - height(obstacle_, {rest.x() - pose.shift, rest.y(), 0.0}), out};
-  const auto found =
-      hit(obstacle_, {rest.x() + displacement.x() - pose.shift, rest.y() + displacement.y(), over});
-  return {found.gap, {found.normal[0], found.normal[1], -found.normal[2]}};
+  const auto turn = pose.turn();
+  const auto in_obstacle_axes = [&](const meshes::Vector3& place) -> meshes::Vector3 {
+    return turn.inverse() * meshes::Vector3(place.x() - pose.shift, place.y(), over);
+  };
+  if (!curved()) return {over - height(obstacle_, in_obstacle_axes(rest)), out};
+  const auto found = hit(obstacle_, in_obstacle_axes(rest + displacement));
+  return {found.gap, turn * meshes::Vector3(found.normal[0], found.normal[1], -found.normal[2])};
 }
 
 double PlaneContact::reach(std::size_t node) const {
@@ -185,10 +193,23 @@ std::vector<char> PlaneContact::held() const {
   return result;
 }
 
+meshes::Vector3 PlaneContact::carried(std::size_t node, const meshes::Vector3& anchor,
+                                      const PlanePose& pose) const {
+  const meshes::Vector3 rest = unknowns_.nodes[node].position, way(pose.shift, 0.0, pose.height);
+  if (finite_) return pose.turn() * meshes::Vector3(rest + anchor) + way - rest;
+  return anchor + way - pose.twist * meshes::Vector3::UnitZ().cross(rest);
+}
+
+meshes::Vector3 PlaneContact::carried_back(std::size_t node, const meshes::Vector3& displacement,
+                                           const PlanePose& pose) const {
+  const meshes::Vector3 rest = unknowns_.nodes[node].position, way(pose.shift, 0.0, pose.height);
+  if (finite_) return pose.turn().inverse() * meshes::Vector3(rest + displacement - way) - rest;
+  return displacement - way + pose.twist * meshes::Vector3::UnitZ().cross(rest);
+}
+
 meshes::Vector3 PlaneContact::held_at(std::size_t node) const {
-  const std::array<double, 3>& anchor = trial_.anchors[node];
-  meshes::Vector3 place = axes(node) * meshes::Vector3(anchor[0] + trial_.pose.shift, anchor[1],
-                                                       anchor[2] + trial_.pose.height);
+  const meshes::Vector3 anchor(trial_.anchors[node].data());
+  meshes::Vector3 place = axes(node) * carried(node, anchor, trial_.pose);
   if (obstacle_.is_plane()) place.z() = reach(node);
   return place;
 }
@@ -211,6 +232,16 @@ ConstrainedSolution PlaneContact::solve(ContactSolver& solver) const {
   return solver.solve_constrained(held(), values, loads);
 }
 
+std::vector<double> PlaneContact::pulls_of(const ConstrainedSolution& solution) const {
+  std::vector<double> pulls(trial_.status.size(), 0.0);
+  for (std::size_t node = 0; node < pulls.size(); ++node) {
+    const double own = solution.reaction[unknowns_.of_node[node][2]];
+    pulls[node] += own;
+    if (follows(node)) pulls[leader(node)] += own;
+  }
+  return pulls;
+}
+
 std::vector<std::size_t> PlaneContact::offenders(const ConstrainedSolution& solution,
                                                  double noise) const {
   // Both thresholds sit above the solver's noise, or nodes that barely touch would flicker.
@@ -219,17 +250,11 @@ std::vector<std::size_t> PlaneContact::offenders(const ConstrainedSolution& solu
   const double depth = std::max(gap_noise, solution.displacement.size()
                                                ? noise * solution.displacement.cwiseAbs().maxCoeff()
                                                : 0.0);
-  // What a node without area carries counts for the one that it follows.
-  std::vector<double> reactions(trial_.status.size(), 0.0);
-  for (std::size_t node = 0; node < reactions.size(); ++node) {
-    const double own = solution.reaction[unknowns_.of_node[node][2]];
-    reactions[node] += own;
-    if (follows(node)) reactions[leader(node)] += own;
-  }
+  const std::vector<double> pulls = pulls_of(solution);
   std::vector<std::size_t> result;
   for (std::size_t node = 0; node < trial_.status.size(); ++node) {
     const bool penetrates = gap_of_solution(node, solution.displacement) < -depth;
-    bool wrong = is_open(node) ? penetrates : reactions[node] > pull;
+    bool wrong = is_open(node) ? penetrates : pulls[node] > pull;
     if (follows(node)) {
       const bool led = !is_open(leader(node));
       wrong = is_open(node) ? led || (wrong && releases_[node] == 0) : wrong && !led;
@@ -244,7 +269,8 @@ PlanePose PlaneContact::pose_on_the_way(double time) const {
     return (1.0 - time) * start + time * end;
   };
   return {between(committed_.pose.height, trial_.pose.height),
-          between(committed_.pose.shift, trial_.pose.shift)};
+          between(committed_.pose.shift, trial_.pose.shift),
+          between(committed_.pose.twist, trial_.pose.twist)};
 }
 
 meshes::Vector3 PlaneContact::on_the_way(std::size_t node, const Eigen::VectorXd& end,
@@ -283,7 +309,7 @@ void PlaneContact::anchor(std::size_t node, const Eigen::VectorXd& end, double t
   // On the obstacle: of what is curved, the way there is not quite straight.
   const GapAndNormal left = gap_and_normal(node, place, pose);
   place -= left.gap * left.normal;
-  trial_.anchors[node] = {place.x() - pose.shift, place.y(), place.z() - pose.height};
+  meshes::Vector3::Map(trial_.anchors[node].data()) = carried_back(node, place, pose);
 }
 
 void PlaneContact::change(std::size_t node, const ConstrainedSolution& solution,
@@ -325,21 +351,40 @@ void PlaneContact::touch_at_start() {
     }
 }
 
-double PlaneContact::update_friction(const ConstrainedSolution& solution, double relaxation,
+Eigen::VectorXd PlaneContact::friction_forces() const {
+  std::vector<double> forces;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    for (std::size_t c = 0; c < 2 && trial_.status[node] == NodeStatus::slide; ++c)
+      if (const int i = unknowns_.of_node[node][c]; i >= 0) forces.push_back(trial_.reaction[i]);
+  return Eigen::Map<Eigen::VectorXd>(forces.data(), Eigen::Index(forces.size()));
+}
+
+void PlaneContact::set_friction_forces(const Eigen::VectorXd& forces) {
+  Eigen::Index next = 0;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    for (std::size_t c = 0; c < 2 && trial_.status[node] == NodeStatus::slide; ++c)
+      if (const int i = unknowns_.of_node[node][c]; i >= 0) trial_.reaction[i] = forces[next++];
+}
+
+double PlaneContact::update_friction(const ConstrainedSolution& solution, bool may_stick,
                                      double noise) {
   double largest_push = 0.0, largest_change = 0.0;
+  const std::vector<double> pulls = pulls_of(solution);
   // A node that the solver's noise alone puts beyond Coulomb's limit, or below, stays what it is.
-  double slack = 0.0;
-  for (std::size_t node = 0; node < trial_.status.size(); ++node)
-    if (!is_open(node))
-      slack = std::max(slack, -noise * friction_ * solution.reaction[unknowns_.of_node[node][2]]);
+  double slack = 0.0, area = 0.0;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node) {
+    if (is_open(node)) continue;
+    area += unknowns_.nodes[node].area;
+    slack = std::max(slack, -noise * friction_ * pulls[node]);
+  }
+  const double stiffness = slip_stiffness * shear_modulus_ / std::sqrt(area);
   for (std::size_t node = 0; node < trial_.status.size(); ++node) {
     if (trial_.status[node] == NodeStatus::open) continue;
     const auto& of_node = unknowns_.of_node[node];
-    const double push = std::max(0.0, -solution.reaction[of_node[2]]);
+    const double push = std::max(0.0, -pulls[node]);
     largest_push = std::max(largest_push, push);
     const bool sliding = trial_.status[node] == NodeStatus::slide;
-    const double rho = shear_modulus_ * unknowns_.nodes[node].extent;
+    const double rho = stiffness * unknowns_.nodes[node].area;
     Eigen::Vector2d force = Eigen::Vector2d::Zero(), wanted = force;
     const meshes::Vector3 start = held_at(node);
     for (std::size_t c = 0; c < 2; ++c) {
@@ -349,21 +394,29 @@ double PlaneContact::update_friction(const ConstrainedSolution& solution, double
       if (sliding) wanted[Eigen::Index(c)] -= rho * slip;
     }
     const double margin = std::max(slack, friction_converged * friction_ * push);
-    if (wanted.norm() <= friction_ * push + (sliding ? -margin : margin)) {
+    const bool holds = wanted.norm() <= friction_ * push + (sliding ? -margin : margin);
+    if (holds && (!sliding || may_stick)) {
       if (sliding) largest_change = std::numeric_limits<double>::infinity();
       trial_.status[node] = NodeStatus::stick;
       continue;
     }
     if (!sliding) largest_change = std::numeric_limits<double>::infinity();
     trial_.status[node] = NodeStatus::slide;
-    const Eigen::Vector2d limit = friction_ * push * wanted.normalized();
     const Eigen::Vector2d next =
-        sliding ? Eigen::Vector2d(force + relaxation * (limit - force)) : limit;
+        holds ? wanted : Eigen::Vector2d(friction_ * push * wanted.normalized());
     largest_change = std::max(largest_change, (next - force).norm());
     for (std::size_t c = 0; c < 2; ++c)
       if (of_node[c] >= 0) trial_.reaction[of_node[c]] = next[Eigen::Index(c)];
   }
   return largest_push > 0.0 ? largest_change / largest_push : 0.0;
+}
+
+void PlaneContact::stick_where_friction_holds(const ConstrainedSolution& solution) {
+  constexpr double almost = 1.0 - 1e-6;
+  const std::vector<double> pulls = pulls_of(solution);
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    if (trial_.status[node] == NodeStatus::slide && shear(node) < almost * friction_ * -pulls[node])
+      trial_.status[node] = NodeStatus::stick;
 }
 
 ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) {
@@ -373,19 +426,25 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
   touch_at_start();
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int stalled = 0;
+  AndersonMixing mixing;
   while (effort.rounds < max_rounds) {
     const ConstrainedSolution solution = solve(solver);
     ++effort.rounds;
     effort.cg_iterations += solution.cg_iterations;
     std::vector<std::size_t> wrong = offenders(solution, solver.noise());
-    const double change =
-        mode_ == ContactMode::coulomb
-            ? update_friction(solution, effort.rounds > friction_patience ? 0.5 : 1.0,
-                              solver.noise())
-            : 0.0;
+    double change = 0.0;
+    if (mode_ == ContactMode::coulomb) {
+      const Eigen::VectorXd before = friction_forces();
+      change = update_friction(solution, effort.rounds <= friction_patience, solver.noise());
+      if (wrong.empty() && std::isfinite(change))
+        set_friction_forces(mixing.next(before, friction_forces()));
+      else
+        mixing.forget();
+    }
     if (wrong.empty() && change <= std::max(friction_converged, solver.noise())) {
       trial_.displacement = in_plane_axes(solution.displacement);
       trial_.reaction = solution.reaction;
+      if (mode_ == ContactMode::coulomb) stick_where_friction_holds(solution);
       return effort;
     }
     stalled = wrong.size() < fewest ? 0 : stalled + 1;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <vector>
 
@@ -12,11 +13,15 @@
 
 namespace fingertip::fem_reference::inline contact {
 
-/// Where the plane is: z >= height is behind it; it has moved along x by `shift`. The obstacle's
-/// top lies in it. Plane axes [m].
+/// Where the plane is: z >= height is behind it; it has moved along x by `shift`, and has turned
+/// about its normal, against the z axis. The obstacle's top lies in it. Plane axes [m, rad].
 struct PlanePose {
   double height = 0.0;
   double shift = 0.0;
+  double twist = 0.0;
+
+  /// Turns what is fixed to the plane, or back.
+  Eigen::AngleAxisd turn() const { return {-twist, meshes::Vector3::UnitZ()}; }
 };
 
 enum class NodeStatus : char {
@@ -55,10 +60,11 @@ struct ContactEffort {
 /// Stick: a node put on the plane is anchored at its lateral position at first touch, interpolated
 /// linearly between the start of the step and the trial state in which it was found penetrating.
 /// The error of the anchor is of second order in the step, or in the times at which the way is
-/// foreknown. Anchors move with the plane. A plane that moves laterally may pull a node off that
-/// would penetrate as soon as it is let go: neither held where it was nor open is a solution. It
-/// has come off and down again within the step; pulled off a second time, it is anchored where it
-/// comes down, at the end of the step.
+/// foreknown. Anchors move and turn with the plane; at small strain its twist is as small as
+/// displacements are, a rotation of places at rest about the z axis. A plane that moves laterally
+/// may pull a node off that would penetrate as soon as it is let go: neither held where it was nor
+/// open is a solution. It has come off and down again within the step; pulled off a second time, it
+/// is anchored where it comes down, at the end of the step.
 ///
 /// A node without area, the pole of a meridian, has no share of the pressure: its reaction says
 /// nothing while its neighbours push. It follows the nearest node with area when that touches, and
@@ -67,8 +73,11 @@ struct ContactEffort {
 ///
 /// Coulomb: a node sticks while |t| <= mu p; beyond, it slides under t = mu p d. In each round the
 /// force of a sliding node is projected anew, t <- mu p (t - rho s)/|t - rho s| with its slip s
-/// since the start of the step and rho = G SurfaceNode::extent, and it sticks again when |t - rho
-/// s| <= mu p (Alart & Curnier 1991): a fixed point satisfies Coulomb's law whatever rho.
+/// since the start of the step and rho in proportion to G and its area, and it sticks again when |t
+/// - rho s| <= mu p (Alart & Curnier 1991): a fixed point satisfies Coulomb's law whatever rho. As
+/// long as the same nodes slide it is sought by AndersonMixing, for where many slide by little
+/// their forces would turn back and forth together. After some rounds no node sticks again: one
+/// whose friction holds is then led back to where it sticks, t <- t - rho s.
 class PlaneContact {
  public:
   /// The first step starts from the tip at rest under the plane at `start`. `friction` is mu
@@ -130,7 +139,7 @@ class PlaneContact {
   struct State {
     PlanePose pose;
     std::vector<NodeStatus> status;
-    std::vector<std::array<double, 3>> anchors;  ///< displacement relative to the plane [m]
+    std::vector<std::array<double, 3>> anchors;  ///< displacement, were the plane not moved [m]
     Eigen::VectorXd displacement;                ///< of the contact unknowns, plane axes [m]
     Eigen::VectorXd reaction;                    ///< on them, along the axes of the nodes [N]
   };
@@ -166,12 +175,21 @@ class PlaneContact {
   meshes::Vector3 own_reaction(std::size_t node) const { return of_node(node, trial_.reaction); }
   /// From the axes of the nodes to those of the plane.
   Eigen::VectorXd in_plane_axes(const Eigen::VectorXd& values) const;
+  /// The displacement of a node that the plane has carried along since it had one of `anchor`
+  /// under a plane that had not moved [m], and the other way.
+  meshes::Vector3 carried(std::size_t node, const meshes::Vector3& anchor,
+                          const PlanePose& pose) const;
+  meshes::Vector3 carried_back(std::size_t node, const meshes::Vector3& displacement,
+                               const PlanePose& pose) const;
   /// Where a node is held that sticks, along its axes [m].
   meshes::Vector3 held_at(std::size_t node) const;
   ConstrainedSolution solve(ContactSolver& solver) const;
   void touch_at_start();
   bool is_open(std::size_t node) const { return trial_.status[node] == NodeStatus::open; }
   bool follows(std::size_t node) const { return leader(node) != node; }
+  /// Of each node along its third axis [N]; what one without area carries counts for its leader,
+  /// too.
+  std::vector<double> pulls_of(const ConstrainedSolution& solution) const;
   std::vector<std::size_t> offenders(const ConstrainedSolution& solution, double noise) const;
   /// `end` is the solution in plane axes.
   void change(std::size_t node, const ConstrainedSolution& solution, const Eigen::VectorXd& end);
@@ -185,14 +203,21 @@ class PlaneContact {
   double first_touch(std::size_t node, const Eigen::VectorXd& end, double gap_at_end) const;
   /// Anchors a node where it is at `time`, 0 ... 1, of the step that ends at `end`.
   void anchor(std::size_t node, const Eigen::VectorXd& end, double time);
-  /// One round of Coulomb's law; the largest change of a friction force over the largest push.
-  double update_friction(const ConstrainedSolution& solution, double relaxation, double noise);
+  /// One round of Coulomb's law; the largest change of a friction force over the largest push,
+  /// infinite when a node sticks or slides from now on.
+  double update_friction(const ConstrainedSolution& solution, bool may_stick, double noise);
+  /// Of a solution's nodes: those whose force is less than friction holds stick.
+  void stick_where_friction_holds(const ConstrainedSolution& solution);
+  /// Friction forces of all that slide, one after the other [N].
+  Eigen::VectorXd friction_forces() const;
+  void set_friction_forces(const Eigen::VectorXd& forces);
 
   ContactUnknowns unknowns_;
   std::vector<std::size_t> leaders_;  ///< of each node: itself, or the one that it follows
   meshes::ContactMode mode_;
   double friction_, shear_modulus_;
   meshes::Obstacle obstacle_;
+  bool finite_;
   struct Frame {
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< as rows
     double reach = 0.0;                                  ///< [m]

@@ -20,13 +20,13 @@ namespace {
 
 using dealii::types::global_dof_index;
 
-/// Position of every local unknown in the element's order dim a + i.
+/// Position of every local unknown in the element's order, node by node.
 template <int dim>
 std::vector<Eigen::Index> element_order(const dealii::FESystem<dim>& element) {
   std::vector<Eigen::Index> order(element.n_dofs_per_cell());
   for (unsigned i = 0; i < order.size(); ++i) {
     const auto [component, node] = element.system_to_component_index(i);
-    order[i] = Eigen::Index(dim * node + component);
+    order[i] = Eigen::Index(element.n_components() * node + component);
   }
   return order;
 }

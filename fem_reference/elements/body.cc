@@ -12,9 +12,9 @@
 namespace fingertip::fem_reference::inline elements {
 
 template <int dim>
-Space<dim>::Space(const Triangulation<dim>& triangulation, int degree)
+Space<dim>::Space(const Triangulation<dim>& triangulation, int degree, int components)
     : communicator(triangulation.get_communicator()),
-      element(dealii::FE_Q<dim>(unsigned(degree)), dim),
+      element(dealii::FE_Q<dim>(unsigned(degree)), unsigned(components)),
       dofs(triangulation) {}
 
 template <int dim>
@@ -26,7 +26,7 @@ void Space<dim>::number(const std::vector<FixedComponent>& fixed) {
   constraints.reinit(relevant);
   dealii::DoFTools::make_hanging_node_constraints(dofs, constraints);
   for (const FixedComponent& entry : fixed) {
-    std::vector<bool> component(dim, false);
+    std::vector<bool> component(element.n_components(), false);
     component[std::size_t(entry.component)] = true;
     dealii::DoFTools::make_zero_boundary_constraints(dofs, entry.boundary, constraints,
                                                      dealii::ComponentMask(component));
@@ -66,17 +66,18 @@ std::vector<double> Space<dim>::gather(const Vector& owned_values,
                                        const std::vector<long>& unknowns) const {
   std::vector<double> own(unknowns.size(), 0.0), all(own);
   for (std::size_t i = 0; i < own.size(); ++i)
-    if (owned.is_element(unsigned(unknowns[i]))) own[i] = owned_values[unsigned(unknowns[i])];
+    if (unknowns[i] >= 0 && owned.is_element(unsigned(unknowns[i])))
+      own[i] = owned_values[unsigned(unknowns[i])];
   dealii::Utilities::MPI::sum(own, communicator, all);
   return all;
 }
 
 template <int dim>
-Body<dim>::Body(MPI_Comm communicator, int degree)
+Body<dim>::Body(MPI_Comm communicator, int degree, int components)
     : triangulation(communicator),
       mapping(unsigned(degree)),
-      fine(triangulation, degree),
-      coarse(triangulation, 1) {}
+      fine(triangulation, degree, components),
+      coarse(triangulation, 1, components) {}
 
 template <int dim>
 void Body<dim>::number(const std::vector<FixedComponent>& fixed) {
@@ -121,7 +122,7 @@ meshes::Vector3 resultant(const Body<dim>& body, const Vector& forces,
                           dealii::types::boundary_id boundary) {
   meshes::Vector3 sum = meshes::Vector3::Zero();
   for (unsigned c = Kinematics<dim>::revolved ? 1 : 0; c < dim; ++c) {
-    dealii::ComponentMask component(dim, false);
+    dealii::ComponentMask component(unsigned(body.components()), false);
     component.set(c, true);
     double& along = sum[Kinematics<dim>::axis[c]];
     for (const auto i :

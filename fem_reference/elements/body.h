@@ -2,7 +2,8 @@
 /// that use deal.II and by nobody else.
 ///
 /// `dim` is 3 for a solid, 2 for a body of revolution that deforms without leaving its symmetry: a
-/// mesh of its meridian in (r, z), displacements (u_r, u_z); see kinematics.h.
+/// mesh of its meridian in (r, z), displacements (u_r, u_z) or, where it is twisted, (u_r, u_z,
+/// u_phi); see kinematics.h.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -29,17 +30,17 @@ using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
 using Vector = dealii::TrilinosWrappers::MPI::Vector;
 using SparseMatrix = dealii::TrilinosWrappers::SparseMatrix;
 
-/// A displacement component (0, ..., dim - 1) that a boundary holds at zero.
+/// A displacement component that a boundary holds at zero.
 struct FixedComponent {
   dealii::types::boundary_id boundary = 0;
   int component = 0;
 };
 
 /// The displacement unknowns of one polynomial degree on a mesh: Lagrange elements with nodes at
-/// Gauss-Lobatto points, `dim` unknowns a node.
+/// Gauss-Lobatto points, `components` unknowns a node.
 template <int dim>
 struct Space {
-  Space(const Triangulation<dim>& triangulation, int degree);
+  Space(const Triangulation<dim>& triangulation, int degree, int components = dim);
 
   /// Numbers the unknowns of the present mesh and collects what is not free: hanging nodes and
   /// fixed components.
@@ -51,7 +52,7 @@ struct Space {
   /// A copy that knows the neighbours' entries, with constrained unknowns filled in.
   Vector ghosted(const Vector& owned_values) const;
 
-  /// Entries of some unknowns, in their order, on every process.
+  /// Entries of some unknowns, in their order, on every process; 0 where there is none (-1).
   std::vector<double> gather(const Vector& owned_values, const std::vector<long>& unknowns) const;
 
   /// What ties hanging nodes to the nodes they follow, without anything that holds the body.
@@ -70,12 +71,13 @@ template <int dim>
 class Body {
  public:
   /// An empty mesh; fill `triangulation`, then call `number`, and again when it has changed.
-  /// `degree` is 1, 2 or 3.
-  Body(MPI_Comm communicator, int degree);
+  /// `degree` is 1, 2 or 3; `components` is dim, or 3 of a body of revolution that is twisted.
+  Body(MPI_Comm communicator, int degree, int components = dim);
 
   void number(const std::vector<FixedComponent>& fixed);
 
   int degree() const { return int(fine.element.degree); }
+  int components() const { return int(fine.element.n_components()); }
   dealii::types::global_dof_index unknowns() const { return fine.dofs.n_dofs(); }
 
   Triangulation<dim> triangulation;

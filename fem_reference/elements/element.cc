@@ -198,9 +198,30 @@ void HookeKernel<dim>::integrate(const dealii::FEValues<dim>& values,
           shear_ * (block.transpose() + block.trace() * Block::Identity());
       if constexpr (revolved) k(dim * a, dim * b) += 2 * shear_ * hoops_.row(a).dot(hoops_.row(b));
     }
+  if constexpr (revolved)
+    if (displacement.size() > dim * nodes) add_twist(k);
   result.force.noalias() = k * displacement;
   result.energy = 0.5 * displacement.dot(result.force);
   result.min_jacobian = 1.0;
+}
+
+template <int dim>
+void HookeKernel<dim>::add_twist(Eigen::MatrixXd& matrix) {
+  const Index nodes = hoops_.rows();
+  Eigen::MatrixXd along_r(nodes, hoops_.cols()), along_z(along_r);
+  for (Index a = 0; a < nodes; ++a) {
+    along_r.row(a) = gradients_.row(dim * a) - hoops_.row(a);
+    along_z.row(a) = gradients_.row(dim * a + 1);
+  }
+  const Eigen::MatrixXd stiffness =
+      shear_ * (along_r * along_r.transpose() + along_z * along_z.transpose());
+  const Eigen::MatrixXd meridian = matrix;
+  matrix.setZero(3 * nodes, 3 * nodes);
+  for (Index b = 0; b < nodes; ++b)
+    for (Index a = 0; a < nodes; ++a) {
+      matrix.block<dim, dim>(3 * a, 3 * b) = meridian.block<dim, dim>(dim * a, dim * b);
+      matrix(3 * a + 2, 3 * b + 2) = stiffness(a, b);
+    }
 }
 
 template <int dim>

@@ -1,6 +1,6 @@
 /// Element matrices: what one element of a given material contributes, of a solid (dim = 3) or a
 /// body of revolution (dim = 2). Rows and columns are ordered node by node, dim a + i for component
-/// i of node a.
+/// i of node a, 3 a + i where a body of revolution is twisted.
 #pragma once
 
 #include <deal.II/fe/fe_values.h>
@@ -49,7 +49,7 @@ enum class Parts { force, stresses, all };
 
 /// Integrates one element. A kernel may fill in the matrix though only the force is asked for.
 /// `values` is of the scalar element, with gradients, values, points and JxW; `displacement` holds
-/// the element's dim n nodal displacements [m].
+/// the element's nodal displacements [m].
 template <int dim>
 class ElementKernel {
  public:
@@ -65,7 +65,9 @@ class ElementKernel {
 /// revolution. With the projected volumetric term the first part is lambda ∫ P(da_i) P(db_j), P the
 /// L2 projection on the element onto polynomials of one degree less in the coordinates; quadratic
 /// elements with it are the Q2/P1 pair, free of locking as nu -> 1/2 (Boffi, Brezzi & Fortin,
-/// Mixed Finite Element Methods and Applications, section 8.6).
+/// Mixed Finite Element Methods and Applications, section 8.6). Displacements of three components
+/// twist a body of revolution: G ∫ (phi_a,r - phi_a/r)(phi_b,r - phi_b/r) + phi_a,z phi_b,z between
+/// the third ones.
 template <int dim>
 class HookeKernel : public ElementKernel<dim> {
  public:
@@ -80,6 +82,9 @@ class HookeKernel : public ElementKernel<dim> {
   }
 
  private:
+  /// Adds the third component of nodes to the matrix of the other two.
+  void add_twist(Eigen::MatrixXd& matrix);
+
   double lambda_, shear_;
   Volumetric volumetric_;
   Eigen::MatrixXd gradients_, hoops_, divergences_, products_;

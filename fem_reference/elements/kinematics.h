@@ -9,6 +9,8 @@
 ///         [ u_z,r       0          1 + u_z,z ]
 ///
 /// and a face sweeps 2 pi r ds. Quadrature points with a positive weight never lie on the axis.
+/// Where a body of revolution is twisted, at small strain alone, a node has a third component,
+/// u_phi, with the shears u_phi,r - u_phi/r and u_phi,z; it knows nothing of the other two.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -38,7 +40,7 @@ struct Kinematics<3> {
 
 template <>
 struct Kinematics<2> {
-  static constexpr std::array<unsigned, 2> axis{0, 2};
+  static constexpr std::array<unsigned, 3> axis{0, 2, 1};
   static constexpr std::array<Eigen::Index, 5> entries{0, 2, 6, 8, 4};
   static constexpr std::array<std::array<int, 3>, 2> slopes{{{0, 2, 4}, {6, 8, -1}}};
   static constexpr bool revolved = true;

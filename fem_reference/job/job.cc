@@ -128,7 +128,8 @@ void ReferenceJob::press_to(std::vector<double> samples) {
 bool ReferenceJob::axisymmetric() const {
   const bool press = analysis == Analysis::static_press || analysis == Analysis::transient;
   return !geometry.solid && symmetry != Symmetry::none && press && protocol.tilt == 0.0 &&
-         protocol.lateral == 0.0 && protocol.obstacle.on_axis();
+         protocol.lateral_range() == std::pair(0.0, 0.0) && protocol.obstacle.on_axis() &&
+         (!protocol.twists() || (strain == Strain::linear && !in_time()));
 }
 
 std::vector<Violation> ReferenceJob::violations() const {
@@ -169,7 +170,7 @@ std::vector<Violation> ReferenceJob::violations() const {
          geometry.solid ? "a solid need not be a body of revolution"
          : press
              ? "a tilt, a lateral motion or an obstacle that is not round about the axis breaks "
-               "the symmetry"
+               "the symmetry, and at large strain or where the rubber relaxes a twist"
              : "vibrations leave the meridian: they need the solid",
          "choose reference.symmetry = \"automatic\""});
   const bool split = strain == Strain::linear || rubber.energy.isochoric();
@@ -184,11 +185,15 @@ std::vector<Violation> ReferenceJob::violations() const {
                       "has no symmetry, is pushed aside, too",
                       "choose reference.mode = \"static\""});
   if (analysis == Analysis::transient)
-    require(strain == Strain::linear && protocol.tilt == 0.0 && protocol.lateral == 0.0 &&
+    require(strain == Strain::linear && protocol.tilt == 0.0 && protocol.is_straight() &&
                 protocol.obstacle.on_axis() && protocol.contact != meshes::ContactMode::coulomb,
             "reference.mode", 0.0,
             "a transient press is small-strain, along the axis, and frictionless or stick",
-            "choose reference.strain = \"linear\", press.contact = \"stick\", no tilt");
+            "choose reference.strain = \"linear\", press.contact = \"stick\", no tilt, no twist");
+  if (press && !rubber.relaxation.empty() && protocol.has_plane_moves())
+    broken.push_back({"press.program", std::to_string(protocol.program.size()) + " stages",
+                      "a rubber that relaxes is in time, where stages press and hold",
+                      "leave lateral and twist stages out, or the relaxation"});
   return broken;
 }
 

@@ -155,7 +155,26 @@ class NodalStress {
     for (const unsigned q : values.quadrature_point_indices())
       gradients.push_back(
           gradient_in_space(tensors[q], displacements[q], values.quadrature_point(q)));
+    if (Kinematics<dim>::revolved && values.get_fe().n_components() > dim)
+      add_twist(values, displacement, gradients);
     return gradients;
+  }
+
+  /// What u_phi adds: u_phi,r and u_phi,z, and -u_phi/r where e_r turns into e_phi; on the axis,
+  /// where u_phi vanishes, that is -u_phi,r.
+  static void add_twist(const dealii::FEValues<dim>& values, const Vector& displacement,
+                        std::vector<Eigen::Matrix3d>& gradients) {
+    const dealii::FEValuesExtractors::Scalar around(2);
+    std::vector<dealii::Tensor<1, dim>> slopes(values.n_quadrature_points);
+    std::vector<double> moved(values.n_quadrature_points);
+    values[around].get_function_gradients(displacement, slopes);
+    values[around].get_function_values(displacement, moved);
+    for (const unsigned q : values.quadrature_point_indices()) {
+      const double r = values.quadrature_point(q)[0];
+      gradients[q](1, 0) = slopes[q][0];
+      gradients[q](1, 2) = slopes[q][1];
+      gradients[q](0, 1) = r > 0.0 ? -moved[q] / r : -slopes[q][0];
+    }
   }
 
   /// At the nodes, of the measure projected as `ElementKernel`s do it.
@@ -248,8 +267,9 @@ template <int dim>
 ContactField<dim>::ContactField(const Body<dim>& body, const PlaneContact& contact,
                                 const Vector& area)
     : body_(body),
-      values_((contact_fields.size() + dim - 1) / dim,
+      values_((contact_fields.size() + body.components() - 1) / body.components(),
               Vector(body.fine.owned, body.fine.relevant, body.fine.communicator)) {
+  const auto components = std::size_t(body.components());
   std::vector<Vector> own(values_.size(), body.fine.vector());
   const std::vector<SurfaceNode>& nodes = contact.unknowns().nodes;
   std::vector<long> unknowns;
@@ -260,8 +280,8 @@ ContactField<dim>::ContactField(const Body<dim>& body, const PlaneContact& conta
     const double values[] = {contact.push(shown) / areas[shown],
                              contact.shear(shown) / areas[shown], double(contact.status()[i])};
     for (std::size_t f = 0; f < contact_fields.size(); ++f) {
-      const auto unknown = unsigned(nodes[i].unknown[Kinematics<dim>::axis[f % dim]]);
-      if (body.fine.owned.is_element(unknown)) own[f / dim][unknown] = values[f];
+      const auto unknown = unsigned(nodes[i].unknown[Kinematics<dim>::axis[f % components]]);
+      if (body.fine.owned.is_element(unknown)) own[f / components][unknown] = values[f];
     }
   }
   for (std::size_t v = 0; v < own.size(); ++v) {
@@ -274,12 +294,13 @@ ContactField<dim>::ContactField(const Body<dim>& body, const PlaneContact& conta
 template <int dim>
 void ContactField<dim>::add_to(dealii::DataOut<dim>& out) const {
   using namespace dealii::DataComponentInterpretation;
+  const auto components = std::size_t(body_.components());
   for (std::size_t v = 0; v < values_.size(); ++v) {
     std::vector<std::string> names;
-    for (std::size_t f = v * dim; f < (v + 1) * dim; ++f)
+    for (std::size_t f = v * components; f < (v + 1) * components; ++f)
       names.emplace_back(f < contact_fields.size() ? contact_fields[f] : no_field);
     out.add_data_vector(body_.fine.dofs, values_[v], names,
-                        std::vector<DataComponentInterpretation>(dim, component_is_scalar));
+                        std::vector<DataComponentInterpretation>(components, component_is_scalar));
   }
 }
 

@@ -87,8 +87,7 @@ PressState ContinuumPress::advance(double place) {
     } catch (const meshes::NotConverged& error) {
       abandon();
       if (one_step() || limit < std::pow(0.5, max_halvings)) {
-        const meshes::PressPose pose = course_.at(place_);
-        throw meshes::NoEquilibrium("the continuum", pose.indentation, pose.lateral, error.what(),
+        throw meshes::NoEquilibrium("the continuum", course_.at(place_), error.what(),
                                     "take another first mesh (reference.refinement)");
       }
       limit /= 2;

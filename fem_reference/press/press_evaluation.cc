@@ -57,6 +57,7 @@ PressState TipPress<dim>::evaluate() {
   const meshes::PressPose pose = course_.at(place_);
   state.indentation = pose.indentation;
   state.lateral_displacement = pose.lateral;
+  state.twist = pose.twist;
   state.active_nodes = contact_->active_nodes();
   state.sliding_nodes = job_.protocol.contact == meshes::ContactMode::coulomb
                             ? int(std::ranges::count(contact_->status(), NodeStatus::slide))
@@ -87,7 +88,8 @@ double TipPress<dim>::radius(const meshes::Vector3& position) const {
 
 template <int dim>
 bool TipPress<dim>::is_round() const {
-  const bool turned = job_.protocol.tilt != 0.0 || job_.protocol.lateral != 0.0;
+  const bool turned =
+      job_.protocol.tilt != 0.0 || job_.protocol.lateral_range() != std::pair(0.0, 0.0);
   return !job_.geometry.solid && !turned && job_.protocol.obstacle.on_axis();
 }
 
@@ -99,14 +101,9 @@ void TipPress<dim>::add_resultant(PressState& state) const {
   const bool finite = job_.strain == Strain::finite;
   // Large strain: true pressure on the deformed surface, moments at deformed positions.
   const std::vector<double> seen = seen_areas(*body_, nodes, finite ? &displacement_ : nullptr);
-  std::vector<meshes::Vector3> moved(nodes.size(), meshes::Vector3::Zero());
-  for (std::size_t c = 0; finite && c < 3; ++c) {
-    if (Kinematics<dim>::revolved && c == 1) continue;  // it has no unknown
-    std::vector<long> unknowns;
-    for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[c]);
-    const auto values = body_->fine.gather(displacement_, unknowns);
-    for (std::size_t i = 0; i < nodes.size(); ++i) moved[i][Eigen::Index(c)] = values[i];
-  }
+  const std::vector<meshes::Vector3> moved =
+      finite ? displacements(nodes)
+             : std::vector<meshes::Vector3>(nodes.size(), meshes::Vector3::Zero());
   const Eigen::AngleAxisd to_rod(job_.protocol.tilt, meshes::Vector3::UnitY());
   const meshes::Vector3 endpoint = to_rod.inverse() * job_.geometry.rod_endpoint();
   meshes::Vector3 force = meshes::Vector3::Zero(), torque = force;
@@ -127,11 +124,12 @@ void TipPress<dim>::add_resultant(PressState& state) const {
   state.torque_y = along_x ? sectors * torque.y() : 0.0;
   state.lateral_force_y = whole ? force.y() : 0.0;
   state.torque_x = whole ? torque.x() : 0.0;
-  state.torque_z = whole ? torque.z() : 0.0;
+  state.torque_z = whole || Kinematics<dim>::revolved ? torque.z() : 0.0;
   if (!pushed.nodes.empty())
     pushed.spacing = spacing_around(outer_nodes_, outermost(),
                                     [this](const meshes::Vector3& at) { return radius(at); });
   measure_contact(state, pushed);
+  state.spin_torque = spin_torque(state.contact);
 }
 
 template <int dim>
@@ -230,7 +228,7 @@ bool TipPress<dim>::refine(double share, const std::vector<char>& wanted) {
   if (!known.empty())
     transfer.prepare_for_coarsening_and_refinement(pointers_to(std::as_const(known)));
   body_->triangulation.execute_coarsening_and_refinement();
-  body_->number(tip_supports<dim>());
+  body_->number(tip_supports<dim>(body_->components()));
   if (double(body_->unknowns()) > job_.max_unknowns) return false;
   std::vector<Vector> carried(known.size(), body_->fine.vector());
   auto targets = pointers_to(carried);

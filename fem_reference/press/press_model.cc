@@ -54,9 +54,10 @@ TipPress<dim>::TipPress(const ReferenceJob& job, const std::filesystem::path& me
       sector_(sector(job)),
       touch_(meshes::first_touch(job.geometry, job.protocol.tilt, job.protocol.obstacle)),
       centre_(contact_centre(job)),
-      body_(read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, job.protocol.tilt, job.geometry)),
+      body_(read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, job.protocol.tilt, job.geometry,
+                          job.protocol.twists() ? 3 : dim)),
       kernel_(make_kernel<dim>(job, 1.0, 0.0)) {
-  body_->number(tip_supports<dim>());
+  body_->number(tip_supports<dim>(body_->components()));
   prepare();
 }
 
@@ -107,7 +108,7 @@ MeshSummary TipPress<dim>::mesh() const {
 template <int dim>
 PlanePose TipPress<dim>::pose(double place) const {
   const meshes::PressPose pose = course_.at(place);
-  return {touch_ - pose.indentation, pose.lateral};
+  return {touch_ - pose.indentation, pose.lateral, pose.twist};
 }
 
 template <int dim>
@@ -267,11 +268,11 @@ template <int dim>
 std::vector<meshes::Vector3> TipPress<dim>::displacements(
     const std::vector<SurfaceNode>& nodes) const {
   std::vector<meshes::Vector3> result(nodes.size(), meshes::Vector3::Zero());
-  for (const int c : Kinematics<dim>::axis) {
+  for (std::size_t c = 0; c < 3; ++c) {
     std::vector<long> unknowns;
-    for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[std::size_t(c)]);
+    for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[c]);
     const std::vector<double> values = body_->fine.gather(displacement_, unknowns);
-    for (std::size_t i = 0; i < nodes.size(); ++i) result[i][c] = values[i];
+    for (std::size_t i = 0; i < nodes.size(); ++i) result[i][Eigen::Index(c)] = values[i];
   }
   return result;
 }

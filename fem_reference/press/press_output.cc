@@ -114,8 +114,11 @@ void TipPress<dim>::write_fields(const PressSnapshot& state,
                                   outer_area(*body_, finite ? &state.displacement : nullptr));
   const StressField<dim> stress(*body_, job_, state.displacement, state.remembered);
   FieldOutput<dim> out;
-  out.add_data_vector(body_->fine.dofs, u, std::vector<std::string>(dim, "displacement"),
-                      std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
+  std::vector<std::string> names(dim, "displacement");
+  std::vector<DataComponentInterpretation> kinds(dim, component_is_part_of_vector);
+  names.resize(std::size_t(body_->components()), "displacement_around_axis");
+  kinds.resize(names.size(), component_is_scalar);
+  out.add_data_vector(body_->fine.dofs, u, names, kinds);
   stress.add_to(out);
   contact.add_to(out);
   out.build_patches(body_->mapping, unsigned(job_.degree),
@@ -263,7 +266,7 @@ void TipPress<dim>::load_stresses() {
 template <int dim>
 void TipPress<dim>::load(const std::filesystem::path& folder) {
   body_->triangulation.load((folder / "mesh").string());
-  body_->number(tip_supports<dim>());
+  body_->number(tip_supports<dim>(body_->components()));
   prepare();
   std::ostringstream text;
   if (first_process()) text << std::ifstream(folder / "contact.json").rdbuf();

@@ -91,6 +91,9 @@ std::string sample_text(const meshes::PressSample& sample) {
   if (sample.lateral_displacement != 0.0)
     text += ", " + to_text(sample.lateral_force_x) + " N laterally at " +
             to_text(sample.lateral_displacement) + " m";
+  if (std::abs(sample.twist) > 0.0)
+    text += ", " + to_text(sample.spin_torque) + " N m about the normal at " +
+            to_text(sample.twist) + " rad";
   return text;
 }
 

@@ -152,7 +152,7 @@ class TransientRun : Run {
         steps_ = press->steps();
         if (steps_.empty()) throw;
         throw meshes::NoEquilibrium(
-            "the press in time", steps_.back().indentation, 0.0,
+            "the press in time", {.indentation = steps_.back().indentation},
             error.what() + (", at " + to_text(steps_.back().time) + " s"),
             "press more slowly (press.speed), or at rest (reference.mode = static)");
       } catch (...) {

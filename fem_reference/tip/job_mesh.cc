@@ -15,7 +15,8 @@ meshes::Sector sector(const ReferenceJob& job) {
   if (job.axisymmetric()) return Sector::meridian;
   const bool modes = job.analysis == Analysis::modes;
   if (!job.geometry.mirrored(1) || (modes && job.geometry.solid)) return Sector::full;
-  const bool mirrored = job.geometry.mirrored(0) && job.protocol.mirrored();
+  if (!modes && !job.protocol.mirrored(1)) return Sector::full;
+  const bool mirrored = job.geometry.mirrored(0) && job.protocol.mirrored(0);
   return mirrored || modes ? Sector::quarter : Sector::half;
 }
 

@@ -92,8 +92,9 @@ void turn(Triangulation<3>& triangulation, double tilt) {
 
 template <int dim>
 std::unique_ptr<Body<dim>> read_tip(MPI_Comm communicator, const std::filesystem::path& mesh_file,
-                                    int degree, double tilt, const meshes::Geometry& geometry) {
-  auto body = std::make_unique<Body<dim>>(communicator, degree);
+                                    int degree, double tilt, const meshes::Geometry& geometry,
+                                    int components) {
+  auto body = std::make_unique<Body<dim>>(communicator, degree, components);
   Triangulation<dim>& triangulation = body->triangulation;
   read_mesh(mesh_file, triangulation);
   if (!geometry.is_dome()) {
@@ -116,10 +117,11 @@ std::unique_ptr<Body<dim>> read_tip(MPI_Comm communicator, const std::filesystem
 }
 
 template <int dim>
-std::vector<FixedComponent> tip_supports() {
+std::vector<FixedComponent> tip_supports(int components) {
   std::vector<FixedComponent> fixed{{id(PhysicalTag::symmetry_x), 0}};
   if (dim == 3) fixed.push_back({id(PhysicalTag::symmetry_y), 1});
-  for (int component = 0; component < dim; ++component)
+  if (dim < components) fixed.push_back({id(PhysicalTag::symmetry_x), 2});  // u_phi on the axis
+  for (int component = 0; component < components; ++component)
     fixed.push_back({id(PhysicalTag::bond), component});
   return fixed;
 }
@@ -209,8 +211,8 @@ std::vector<SurfaceNode> outer_nodes(const Body<dim>& tip) {
         const auto point =
             tip.mapping.transform_unit_to_real_cell(cell, space.element.unit_support_point(i));
         const Eigen::Vector3d place = in_space<dim>(point);
-        std::array<double, 10> entry{place.x(), place.y(), place.z(), area[indices[i]]};
-        for (unsigned c = 0; c < dim; ++c) {
+        std::array<double, 10> entry{place.x(), place.y(), place.z(), area[indices[i]], -1, -1, -1};
+        for (unsigned c = 0; c < unsigned(tip.components()); ++c) {
           const auto unknown = indices[space.element.component_to_system_index(c, node)];
           entry[4 + Kinematics<dim>::axis[c]] = double(unknown);
           entry[7 + Kinematics<dim>::axis[c]] =
@@ -242,8 +244,8 @@ std::vector<SurfaceNode> outer_nodes(const Body<dim>& tip) {
 
 #define FINGERTIP_INSTANTIATE(dim)                                                           \
   template std::unique_ptr<Body<dim>> read_tip(MPI_Comm, const std::filesystem::path&, int,  \
-                                               double, const meshes::Geometry&);             \
-  template std::vector<FixedComponent> tip_supports<dim>();                                  \
+                                               double, const meshes::Geometry&, int);        \
+  template std::vector<FixedComponent> tip_supports<dim>(int);                               \
   template std::vector<SurfaceNode> outer_nodes(const Body<dim>&);                           \
   template Vector outer_area(const Body<dim>&, const Vector*);                               \
   template std::vector<double> seen_areas(const Body<dim>&, const std::vector<SurfaceNode>&, \

@@ -18,12 +18,13 @@ namespace fingertip::fem_reference::inline tip {
 /// has inverted elements. A meridian takes no tilt.
 template <int dim>
 std::unique_ptr<Body<dim>> read_tip(MPI_Comm communicator, const std::filesystem::path& mesh_file,
-                                    int degree, double tilt, const meshes::Geometry& geometry = {});
+                                    int degree, double tilt, const meshes::Geometry& geometry = {},
+                                    int components = dim);
 
 /// What holds the tip: all of `bond`, and on the symmetry planes that the mesh has (the axis, of a
-/// meridian) the component across them.
+/// meridian) the component across them; on the axis u_phi, too.
 template <int dim>
-std::vector<FixedComponent> tip_supports();
+std::vector<FixedComponent> tip_supports(int components = dim);
 
 /// The nodes of the outer surface that are free to move along z, sorted by position. The pole of a
 /// meridian has no area: Gauss-Lobatto quadrature gives it no force, and that of an even pressure

@@ -25,6 +25,8 @@ struct PressPlane {
     const meshes::PressPose pose = path.at(s);
     return (pose.indentation - height) * normal + pose.lateral * t1;
   }
+  /// How far it has turned about its normal there [rad].
+  double twist(double s) const { return path.at(s).twist; }
   /// Its axes t1, t2 and n as columns.
   Eigen::Matrix3d axes() const { return (Eigen::Matrix3d() << t1, t2, normal).finished(); }
 };

@@ -131,8 +131,9 @@ void PressRecorder::note_contact(double indentation) {
   for (TiedPoint& tied : points)
     for (Vector3* vector : {&tied.point.place, &tied.point.shear, &tied.point.normal})
       *vector = to_plane * *vector;
-  add_sample(contact_field(points, finger_->model().sector.count()),
-             int(outcome_->response.samples().size()), indentation, outcome_->contact);
+  const auto field = contact_field(points, finger_->model().sector.count());
+  if (!field.empty()) outcome_->response.back().spin_torque = spin_torque(field);
+  add_sample(field, int(outcome_->response.samples().size()), indentation, outcome_->contact);
 }
 
 bool PressRecorder::add_step(const PressInstant& start) {

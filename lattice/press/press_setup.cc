@@ -177,20 +177,21 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
   const meshes::PressProtocol& protocol = setup.protocol;
   std::vector<Violation> found;
   add_relaxation(found, setup);
-  if (protocol.mode == meshes::DriveMode::equilibrium) {
-    if (protocol.contact == meshes::ContactMode::coulomb) {
-      found.push_back({"press.contact", "coulomb",
-                       "the lattice in equilibrium sticks or is free of friction",
-                       "take press.mode = quasi-static or pid, where it slides, or compute "
-                       "the equilibrium with `reference`"});
-    }
-    return found;
-  }
-  if (protocol.slides_after()) {
-    found.push_back({"press.lateral_path", std::string(name(protocol.lateral_path)),
-                     "a moving rod goes a straight way, along the plane on the way down",
-                     "take press.mode = static or press.lateral_path = diagonal"});
-  }
+  if (protocol.mode == meshes::DriveMode::equilibrium) return found;
+  const auto not_straight = [&found](const char* key, const std::string& value,
+                                     const std::string& remedy) {
+    found.push_back({key, value,
+                     "a moving rod goes a straight way, along the plane on the way down alone",
+                     "take press.mode = static" + remedy});
+  };
+  if (protocol.has_twist())
+    not_straight("press.twist", meshes::to_text(protocol.twist) + " rad", "");
+  else if (protocol.moves_after())
+    not_straight("press.lateral_path", std::string(name(protocol.lateral_path)),
+                 " or press.lateral_path = diagonal");
+  if (protocol.has_plane_moves())
+    not_straight("press.program", std::to_string(protocol.program.size()) + " stages",
+                 ", or stages that press and hold");
   const LatticeSettings& lattice = setup.lattice;
   if (lattice.model == ModelKind::published) {
     const auto straight = [&found](const char* key, double value, const char* unit) {

@@ -33,6 +33,9 @@ namespace {
 /// Largest step, as a share of the rubber's thickness, where a state owes something to those before
 /// it or is not easily found: of forces that stick 1/40 costs 2e-4 (MEASUREMENTS).
 constexpr double largest_share = 1.0 / 40.0;
+/// The same where points slide, each straight within a step: lateral forces of a partial slip are
+/// then within 2 % of those of ever smaller steps, with 1/40 7 % too small.
+constexpr double largest_share_of_slip = 1.0 / 100.0;
 /// A step is not made smaller than this share of the largest.
 constexpr double smallest_share = 1.0 / 128.0;
 /// Rounds of anchoring and releasing within a step.
@@ -114,12 +117,14 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
       path_(setup.protocol),
       system_(body),
       solver_(system_, Team(std::max(1, setup.threads))),
-      now_{StaticContact(body, press_plane(setup.protocol, setup.geometry), setup.protocol.contact),
+      now_{StaticContact(body, press_plane(setup.protocol, setup.geometry),
+                         {setup.protocol.contact, setup.protocol.friction}),
            VectorXd::Zero(body.unknowns()),
            {}},
       previous_displacement_(now_.displacement) {
-  const bool direct = !body.finite && setup.protocol.contact != ContactMode::stick;
-  largest_step_ = direct ? path_.length() : largest_share * setup.geometry.thickness();
+  const bool direct = !body.finite && setup.protocol.contact == ContactMode::frictionless;
+  const double share = now_.contact.rubs() ? largest_share_of_slip : largest_share;
+  largest_step_ = direct ? path_.length() : share * setup.geometry.thickness();
   step_ = largest_step_;
   take_census();
 }
@@ -173,8 +178,7 @@ void StaticPress::march_to(double target) {
     }
     step_ = 0.5 * left / std::max(count, 1.0);
     if (step_ < smallest_share * largest_step_) {
-      const meshes::PressPose pose = now_.contact.pose();
-      throw meshes::NoEquilibrium("the static press", pose.indentation, pose.lateral, "",
+      throw meshes::NoEquilibrium("the static press", now_.contact.pose(), "",
                                   "take a finer lattice (lattice.spacing)");
     }
   }
@@ -195,9 +199,10 @@ bool StaticPress::step_to(double place, bool is_sample) {
   State next{now_.contact, extrapolated(place), now_.slopes};
   next.contact.move_to(place);
   next.contact.begin_step();
-  const bool stick = setup_.protocol.contact == ContactMode::stick;
+  const bool stick = setup_.protocol.contact == ContactMode::stick,
+             holds = setup_.protocol.contact != ContactMode::frictionless;
   const double enough = is_sample ? tolerance_ : search_tolerance_;
-  double tolerance = stick ? search_tolerance_ : enough;
+  double tolerance = holds ? search_tolerance_ : enough;
   bool converged = false;
   for (int round = 0; round < max_rounds && !converged; ++round) {
     if (!solver_.solve(next.contact, next.displacement, tolerance)) return false;
@@ -210,6 +215,7 @@ bool StaticPress::step_to(double place, bool is_sample) {
     tolerance = enough;
   }
   if (!converged) return false;
+  if (next.contact.rubs()) next.contact.end_step(next.displacement);
   previous_place_ = from;
   previous_displacement_.swap(now_.displacement);
   now_ = std::move(next);
@@ -254,6 +260,7 @@ PressSample StaticPress::sample() const {
   const meshes::PressPose pose = now_.contact.pose();
   sample.indentation = pose.indentation;
   sample.lateral_displacement = pose.lateral;
+  sample.twist = pose.twist;
   sample.normal_force = force.dot(plane.normal);
   sample.lateral_force_x = force.dot(plane.t1);
   sample.lateral_force_y = force.dot(plane.t2);
@@ -264,9 +271,9 @@ PressSample StaticPress::sample() const {
   return sample;
 }
 
-/// In world axes in which the plane stands still and the rod, at its starting place at first touch,
-/// comes nearer, as in a press in motion. What the contact holds of a surface point's cell it holds
-/// of its particles.
+/// In world axes in which the plane stands still, but for a twist, and the rod, at its starting
+/// place at first touch, comes nearer, as in a press in motion. What the contact holds of a surface
+/// point's cell it holds of its particles.
 FingerPicture StaticPress::drawn() {
   const PressPlane& plane = now_.contact.plane();
   const Vector3 travel = plane.point(0.0) - plane.point(now_.contact.place());
@@ -287,6 +294,7 @@ FingerPicture StaticPress::drawn() {
   bare.plane.point = plane.point(0.0);
   bare.plane.normal = plane.normal;
   bare.plane.obstacle = plane.obstacle;
+  bare.plane.turned = Eigen::AngleAxisd(now_.contact.pose().twist, plane.normal);
   return pictures_->draw(std::move(bare), particles, travel);
 }
 
@@ -305,8 +313,9 @@ void StaticPress::note_slopes() {
 }
 
 void StaticPress::note_contact() {
-  add_sample(contact_field(now_.contact.points(now_.displacement), body_.sectors),
-             int(outcome_.response.samples().size()), now_.contact.pose().indentation,
+  const auto field = contact_field(now_.contact.points(now_.displacement), body_.sectors);
+  outcome_.response.back().spin_torque = spin_torque(field);
+  add_sample(field, int(outcome_.response.samples().size()), now_.contact.pose().indentation,
              outcome_.contact);
 }
 

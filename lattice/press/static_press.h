@@ -36,18 +36,19 @@ LatticeBody static_body(const PressSetup& setup, int sectors);
 /// Called after every sample and after the steps between; false ends the press with Interrupted.
 using StaticObserver = std::function<bool(const StaticOutcome& so_far, double fraction_done)>;
 
-/// Presses `setup`'s lattice quasi-statically along the protocol's PressPath, with stick or
-/// frictionless contact, tilt and lateral motion.
-/// Contact is a one-sided elastic tie of every outer point to the plane (EmbeddedPoint::stiffness):
-/// frictionless along the normal; stick to the place where the point first touched, interpolated
-/// within the step, and released when pulled. Steps are at most (R - r)/100 with stick, (R - r)/40
-/// at finite strain without; a step that fails is halved, down to 1/128 of that. The published
-/// model is computed on its own particles, the others on cut cells, on the smallest part that
-/// symmetry allows. Of `setup`, the protocol's mode, rod, controller and integrator do not matter.
-/// Throws InvalidInput for a setup that breaks a rule, NotConverged when Newton's method fails at
-/// the smallest step (the observer has seen what was finished), Interrupted when the observer asks.
-/// A press that is `pictured` builds the whole tip as a moving lattice, too: snapshots are at rest,
-/// at the first sample from half the depth on, and at the last sample.
+/// Presses `setup`'s lattice quasi-statically along the protocol's PressPath, under any contact
+/// law, with tilt, lateral motion and twist. Contact is a one-sided elastic tie of every outer
+/// point to the plane (EmbeddedPoint::stiffness): frictionless along the normal; stick to the place
+/// where the point first touched, interpolated within the step, and released when pulled; coulomb
+/// as stick, along the plane no more than friction holds. Steps are at most (R - r)/40,
+/// (R - r)/100 under coulomb, one to a sample without friction at small strain; a step that fails
+/// is halved, down to 1/128 of that. The published model is computed on its own particles, the
+/// others on cut cells, on the smallest part that symmetry allows. Of `setup`, the protocol's mode,
+/// rod, controller and integrator do not matter. Throws InvalidInput for a setup that breaks a
+/// rule, NotConverged when Newton's method fails at the smallest step (the observer has seen what
+/// was finished), Interrupted when the observer asks. A press that is `pictured` builds the whole
+/// tip as a moving lattice, too: snapshots are at rest, at the first sample from half the depth on,
+/// and at the last sample.
 StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer = {},
                                bool pictured = false);
 

@@ -203,7 +203,8 @@ int largest_symmetry(const Geometry& geometry, const LatticeSettings& settings,
 int way_symmetry(const Geometry& geometry, const LatticeSettings& settings,
                  const meshes::PressProtocol& protocol) {
   const int sectors = grid_symmetry(geometry, settings);
-  return protocol.mirrored() ? sectors : std::min(sectors, 2);
+  if (!protocol.mirrored(1)) return 1;
+  return protocol.mirrored(0) ? sectors : std::min(sectors, 2);
 }
 
 }  // namespace fingertip::lattice::inline statics

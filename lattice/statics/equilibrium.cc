@@ -232,13 +232,13 @@ bool EquilibriumSolver::respond(const StaticContact& contact, const VectorXd& di
   return own.prepare(0.0) && own.iterate(forces, responses);
 }
 
-bool EquilibriumSolver::solve(const StaticContact& contact, VectorXd& displacement,
-                              double tolerance) {
+bool EquilibriumSolver::solve(StaticContact& contact, VectorXd& displacement, double tolerance) {
   Implementation& own = *implementation_;
   VectorXd step;
   double before = 0.0, stored = 0.0;
   for (int i = 0; i < max_iterations; ++i) {
     double contact_force = 0.0;
+    contact.update_friction(displacement);
     try {
       contact_force = own.evaluate(contact, displacement, &own.tangent);
     } catch (const meshes::NotConverged&) {
@@ -248,7 +248,7 @@ bool EquilibriumSolver::solve(const StaticContact& contact, VectorXd& displaceme
                  now = own.force.norm();
     if (now <= enough) return true;
     ++own.effort.newton_iterations;
-    if (i == 0) stored = own.energy(contact, displacement);
+    if (i == 0 || contact.rubs()) stored = own.energy(contact, displacement);
     const double found = i == 0 ? worst_accuracy : std::pow(now / before, 2),
                  accuracy =
                      std::clamp(std::max(found, 0.5 * enough / now), best_accuracy, worst_accuracy);

@@ -21,6 +21,7 @@ struct Effort {
 
 /// Finds displacements at which elastic and contact forces on the free unknowns cancel, by Newton's
 /// method (semi-smooth where a tie opens or closes) with a backtracking line search on the energy.
+/// Under Coulomb friction the energy of an iteration is that of the pushes it starts from.
 ///
 /// Linear systems are solved by conjugate gradients, no better than the next step can use, with a
 /// V-cycle (BlockMultigrid) of an earlier tangent; when that takes too long, of the present one.
@@ -35,7 +36,7 @@ class EquilibriumSolver {
   /// magnitudes, or round-off. False, and the displacement is of no use, when the start has no
   /// finite energy, no shift makes the tangent positive definite, the line search fails or 100
   /// iterations do not suffice. Fixed unknowns keep their values.
-  bool solve(const StaticContact& contact, Eigen::VectorXd& displacement,
+  bool solve(StaticContact& contact, Eigen::VectorXd& displacement,
              double tolerance = force_tolerance);
 
   /// Solves tangent x `responses` = `forces` column by column to a relative residual of 1e-12, with

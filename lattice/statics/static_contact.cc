@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fingertip::lattice::inline statics {
 
 using Eigen::Matrix3d;
 using Eigen::VectorXd;
+using meshes::ContactMode;
 using meshes::Vector3;
 using TiePush = kernel::TiePush<double>;
 
@@ -15,53 +17,96 @@ namespace {
 
 /// Gaps below this length [m] are round-off: a picometre.
 constexpr double gap_noise = 1e-12;
+/// What is left to the length at which friction gives way when a point slides: round-off.
+constexpr double held_yet = 1e-9;
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 StaticContact::StaticContact(const LatticeBody& body, const PressPlane& plane,
-                             meshes::ContactMode mode)
+                             const ContactLaw& law)
     : body_(&body),
       plane_(plane),
       axes_(plane.axes()),
-      stick_(mode == meshes::ContactMode::stick),
+      law_(law),
       anchored_(body.outer.size(), 0),
       released_(body.outer.size(), 0),
       anchor_(body.outer.size(), Vector3::Zero()),
+      limit_(body.outer.size(), law.mode == ContactMode::stick ? endless : 0.0),
       anchor_normal_(body.outer.size(), plane.normal) {}
+
+Matrix3d StaticContact::turn(double place) const {
+  return Eigen::AngleAxisd(plane_.twist(place), plane_.normal).toRotationMatrix();
+}
+
+void StaticContact::move_to(double place) {
+  place_ = place;
+  turn_ = turn(place);
+  axes_ = turn_ * plane_.axes();
+}
+
+Vector3 StaticContact::turned(std::size_t point, const Vector3& fixed) const {
+  if (body_->finite) return turn_ * fixed;
+  return fixed + plane_.twist(place_) * plane_.normal.cross(body_->outer[point].rest);
+}
+
+Vector3 StaticContact::turned_back(std::size_t point, const Vector3& at, double place) const {
+  const double twist = plane_.twist(place);
+  if (body_->finite) return Eigen::AngleAxisd(-twist, plane_.normal) * at;
+  return at - twist * plane_.normal.cross(body_->outer[point].rest);
+}
 
 StaticContact::Relative StaticContact::relative(std::size_t point, const VectorXd& displacement,
                                                 double place) const {
   const EmbeddedPoint& outer = body_->outer[point];
   const Vector3 top = plane_.point(place);
-  return {position(outer, displacement) - top, outer.rest - top};
+  return {position(outer, displacement) - top, outer.rest - top,
+          place == place_ ? axes_ : Matrix3d(turn(place) * plane_.axes())};
 }
 
 StaticContact::GapAndNormal StaticContact::gap_and_normal(const Relative& point) const {
   const double over = point.now.dot(plane_.normal);
   if (plane_.obstacle.is_plane()) return {over, plane_.normal};
   if (!body_->finite)
-    return {over - height(plane_.obstacle, axes_.transpose() * point.rest), plane_.normal};
-  const auto found = hit(plane_.obstacle, axes_.transpose() * point.now);
-  return {found.gap, axes_ * Vector3(found.normal)};
+    return {over - height(plane_.obstacle, point.axes.transpose() * point.rest), plane_.normal};
+  const auto found = hit(plane_.obstacle, point.axes.transpose() * point.now);
+  return {found.gap, point.axes * Vector3(found.normal)};
 }
 
 Matrix3d StaticContact::bend(const Relative& point) const {
   if (plane_.obstacle.is_plane() || !body_->finite) return Matrix3d::Zero();
-  return axes_ * curvature(plane_.obstacle, axes_.transpose() * point.now) * axes_.transpose();
+  return point.axes * curvature(plane_.obstacle, point.axes.transpose() * point.now) *
+         point.axes.transpose();
 }
 
 bool StaticContact::touches(std::size_t point, const VectorXd& displacement) const {
-  return stick_ ? anchored_[point] != 0 : gap_and_normal(point, displacement).gap < 0.0;
+  const bool sticks = law_.mode == ContactMode::stick;
+  return anchored_[point] != 0 || (!sticks && gap_and_normal(point, displacement).gap < 0.0);
+}
+
+Vector3 StaticContact::stretch(std::size_t point, const VectorXd& displacement) const {
+  return plane_.point(place_) + turned(point, anchor_[point]) -
+         position(body_->outer[point], displacement);
+}
+
+StaticContact::Hold StaticContact::hold(std::size_t point, const Vector3& stretch,
+                                        double depth) const {
+  const double length = std::sqrt(std::max(0.0, stretch.squaredNorm() - depth * depth));
+  const double limit = limit_[point];
+  return {length, limit > 0.0 ? std::min(limit / length, 1.0) : 0.0};
 }
 
 Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement) const {
+  if (!touches(point, displacement)) return Vector3::Zero();
   const EmbeddedPoint& outer = body_->outer[point];
-  if (stick_ && !anchored_[point]) return Vector3::Zero();
   const GapAndNormal now = gap_and_normal(point, displacement);
-  const double depth = std::max(-now.gap, 0.0), push = TiePush(body_->contact, depth).length;
-  if (!stick_) return outer.stiffness * push * now.normal;
-  const Vector3 stretch = plane_.point(place_) + anchor_[point] - position(outer, displacement);
-  return outer.stiffness * (stretch + (push - depth) * now.normal);
+  Vector3 length = TiePush(body_->contact, std::max(-now.gap, 0.0)).length * now.normal;
+  if (anchored_[point]) {
+    const Vector3 pull = stretch(point, displacement);
+    const double depth = tied_depth(now.gap);
+    length += hold(point, pull, depth).share * (pull - depth * now.normal);
+  }
+  return outer.stiffness * length;
 }
 
 double StaticContact::energy(const VectorXd& displacement) const {
@@ -69,11 +114,14 @@ double StaticContact::energy(const VectorXd& displacement) const {
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (!touches(i, displacement)) continue;
     const EmbeddedPoint& outer = body_->outer[i];
-    const double depth = std::max(-gap_and_normal(i, displacement).gap, 0.0);
-    double own = TiePush(body_->contact, depth).energy;
-    if (stick_) {
-      const Vector3 stretch = plane_.point(place_) + anchor_[i] - position(outer, displacement);
-      own += 0.5 * (stretch.squaredNorm() - depth * depth);
+    const double gap = gap_and_normal(i, displacement).gap;
+    double own = TiePush(body_->contact, std::max(-gap, 0.0)).energy;
+    if (anchored_[i]) {
+      const Vector3 pull = stretch(i, displacement);
+      const double depth = tied_depth(gap);
+      const Hold held = hold(i, pull, depth);
+      own += held.share < 1.0 ? limit_[i] * (held.length - 0.5 * limit_[i])
+                              : 0.5 * (pull.squaredNorm() - depth * depth);
     }
     sum += outer.stiffness * own;
   }
@@ -93,11 +141,18 @@ double StaticContact::add(const VectorXd& displacement, const ElasticSystem& sys
     if (!tangent) continue;
     const Relative at = relative(i, displacement, place_);
     const GapAndNormal now = gap_and_normal(at);
-    const double depth = std::max(-now.gap, 0.0);
-    const TiePush tie(body_->contact, depth);
+    const TiePush tie(body_->contact, std::max(-now.gap, 0.0));
     const Matrix3d along = now.normal * now.normal.transpose();
     Matrix3d shape = tie.tangent * along - tie.length * bend(at);
-    if (stick_) shape += Matrix3d::Identity() - along + depth * bend(at);
+    if (rubs() && now.gap > 0.0) shape.setZero();  // what is across is still tied
+    if (anchored_[i]) {
+      const double depth = tied_depth(now.gap);
+      const Vector3 pull = stretch(i, displacement), across = pull - depth * now.normal;
+      const Hold held = hold(i, pull, depth);
+      shape += held.share * (Matrix3d::Identity() - along + depth * bend(at));
+      if (held.share > 0.0 && held.share < 1.0)
+        shape -= held.share / (held.length * held.length) * across * across.transpose();
+    }
     system.add_embedded(outer, outer.stiffness * shape, *tangent);
   }
   return sum;
@@ -106,7 +161,7 @@ double StaticContact::add(const VectorXd& displacement, const ElasticSystem& sys
 std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, double from,
                                                      const VectorXd& end) const {
   std::vector<FirstTouch> touches;
-  if (!stick_) return touches;
+  if (law_.mode == ContactMode::frictionless) return touches;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (anchored_[i]) continue;
     const Relative last = relative(i, end, place_);
@@ -125,8 +180,9 @@ std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, doub
                      .projection = {}};
     // The gap is linear in the place for a plane and at small strain; else nearly so within a step.
     const double share = touch.share();
+    const Matrix3d turned_axes = turn(from + share * (place_ - from)) * plane_.axes();
     const Relative there{(1.0 - share) * first.now + share * last.now,
-                         (1.0 - share) * first.rest + share * last.rest};
+                         (1.0 - share) * first.rest + share * last.rest, turned_axes};
     const GapAndNormal left = gap_and_normal(there);
     touch.anchor = there.now - left.gap * left.normal;
     touch.projection =
@@ -140,14 +196,47 @@ int StaticContact::anchor_touching(const VectorXd& start, double from, const Vec
   const std::vector<FirstTouch> touches = first_touches(start, from, end);
   for (const FirstTouch& touch : touches) {
     const std::size_t i = touch.point;
-    anchor_[i] = touch.anchor;
+    const double there = from + touch.share() * (place_ - from);
+    anchor_[i] = turned_back(i, touch.anchor, there);
     anchored_[i] = 1;
-    if (body_->finite) anchor_normal_[i] = gap_and_normal({touch.anchor, touch.anchor}).normal;
+    const Matrix3d turned = turn(there);
+    if (body_->finite)
+      anchor_normal_[i] =
+          turned.transpose() *
+          gap_and_normal({touch.anchor, touch.anchor, turned * plane_.axes()}).normal;
   }
   return int(touches.size());
 }
 
+void StaticContact::update_friction(const VectorXd& displacement) {
+  for (std::size_t i = 0; rubs() && i < body_->outer.size(); ++i)
+    limit_[i] = law_.friction *
+                TiePush(body_->contact, std::max(-gap_and_normal(i, displacement).gap, 0.0)).length;
+}
+
+void StaticContact::end_step(const VectorXd& displacement) {
+  for (std::size_t i = 0; i < body_->outer.size(); ++i) {
+    if (!anchored_[i]) continue;
+    const GapAndNormal now = gap_and_normal(i, displacement);
+    if (!(now.gap < 0.0)) {
+      anchored_[i] = 0;
+      continue;
+    }
+    const Vector3 pull = stretch(i, displacement), across = pull + now.gap * now.normal;
+    const Vector3 place = turned(i, anchor_[i]) - (1.0 - hold(i, pull, -now.gap).share) * across;
+    anchor_[i] = turned_back(i, place, place_);
+  }
+}
+
+bool StaticContact::slides(std::size_t point, const VectorXd& displacement) const {
+  if (law_.mode != ContactMode::coulomb) return law_.mode == ContactMode::frictionless;
+  const double depth = -gap_and_normal(point, displacement).gap;
+  return hold(point, stretch(point, displacement), depth).length >=
+         (1.0 - held_yet) * limit_[point];
+}
+
 int StaticContact::release_pulled(const VectorXd& displacement) {
+  if (law_.mode != ContactMode::stick) return 0;
   int count = 0;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (!anchored_[i] || released_[i]) continue;
@@ -196,8 +285,9 @@ std::vector<TiedPoint> StaticContact::points(const VectorXd& displacement) const
     point.normal = to_plane * gap_and_normal(i, displacement).normal;
     point.area = area(i, displacement);
     point.set_force(to_plane * tie_force(i, displacement));
-    point.state = stick_ ? meshes::ContactState::stick : meshes::ContactState::slip;
-    if (!stick_) point.shear.setZero();  // but for round-off it is
+    point.state =
+        slides(i, displacement) ? meshes::ContactState::slip : meshes::ContactState::stick;
+    if (law_.mode == ContactMode::frictionless) point.shear.setZero();  // but for round-off it is
   }
   return points;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -43,16 +44,25 @@ struct FirstTouch {
 ///                 the place of first touch, lies on the obstacle and moves with it. Of a plane,
 ///                 whose d is the tie's length along the normal, this is w(d) and a linear tie
 ///                 across.
+///   coulomb       k w(d) + h(q), q² = |x - anchor|² - d²; of a plane q is the tie's length across.
+///                 h = ½ k q² up to the length at which friction gives way, q1 = mu w'(d); beyond
+///                 it k q1 (q - ½ q1). Within an iteration q1 is that of the push where it starts
+///                 (update_friction), so that there is an energy. Where it slides the anchor
+///                 follows by what friction does not hold (end_step). A step is taken to be
+///                 straight: friction points against its slip.
 /// Of a plane g = (x - plane point)·n, x = rest + u, also at small strain. Of another obstacle at
 /// small strain it is less by the obstacle's height at the place of rest, with the plane's normal;
 /// at finite strain the distance of x from the obstacle, with its normal there.
+///
+/// The plane's twist turns the obstacle about n, and anchors: at small strain these by a rotation
+/// as small as displacements, about the axis through the shape's origin.
 class StaticContact {
  public:
-  /// Keeps a reference to `body`. `mode` is stick or frictionless.
-  StaticContact(const LatticeBody& body, const PressPlane& plane, meshes::ContactMode mode);
+  /// Keeps a reference to `body`.
+  StaticContact(const LatticeBody& body, const PressPlane& plane, const ContactLaw& law);
 
   /// Moves the plane, and the anchors with it, to a place of its path [m].
-  void move_to(double place) { place_ = place; }
+  void move_to(double place);
   double place() const { return place_; }
   meshes::PressPose pose() const { return plane_.path.at(place_); }
   const PressPlane& plane() const { return plane_; }
@@ -64,11 +74,11 @@ class StaticContact {
   double add(const Eigen::VectorXd& displacement, const ElasticSystem& system,
              Eigen::VectorXd& force, Tangent* tangent) const;
 
-  /// Stick: the free points that have crossed the plane on the way from `start` at the path's
-  /// place `from` to `end` at the present one, both taken to go in a straight line.
+  /// But for frictionless: the free points that have crossed the plane on the way from `start` at
+  /// the path's place `from` to `end` at the present one, both taken to go in a straight line.
   std::vector<FirstTouch> first_touches(const Eigen::VectorXd& start, double from,
                                         const Eigen::VectorXd& end) const;
-  /// Stick: anchors them where they crossed it. Returns how many.
+  /// Anchors them where they crossed it. Returns how many.
   int anchor_touching(const Eigen::VectorXd& start, double from, const Eigen::VectorXd& end);
   /// Stick: frees the anchored points that the plane would have to pull, but none a second time
   /// since `begin_step`. Returns how many.
@@ -76,6 +86,14 @@ class StaticContact {
   /// Whether a point sticks.
   bool anchored(std::size_t point) const { return anchored_[point] != 0; }
   void begin_step() { released_.assign(released_.size(), 0); }
+  /// Whether Coulomb's law holds.
+  bool rubs() const { return law_.mode == meshes::ContactMode::coulomb; }
+  /// Coulomb: friction gives way from now on as the pushes have it.
+  void update_friction(const Eigen::VectorXd& displacement);
+  /// Coulomb: anchors of what slides follow; what does not touch has none.
+  void end_step(const Eigen::VectorXd& displacement);
+  /// Whether a point slides, or is free of friction.
+  bool slides(std::size_t point, const Eigen::VectorXd& displacement) const;
 
   /// Whether the obstacle acts on an outer point.
   bool touches(std::size_t point, const Eigen::VectorXd& displacement) const;
@@ -83,7 +101,7 @@ class StaticContact {
   meshes::Vector3 tie_force(std::size_t point, const Eigen::VectorXd& displacement) const;
   /// Stick: along the obstacle's normal where the point is anchored [N].
   double anchored_push(std::size_t point, const Eigen::VectorXd& displacement) const {
-    return tie_force(point, displacement).dot(anchor_normal_[point]);
+    return tie_force(point, displacement).dot(turn_ * anchor_normal_[point]);
   }
   /// Sum of the ties' forces; moments at positions of rest at small strain, at present ones at
   /// finite strain.
@@ -95,10 +113,14 @@ class StaticContact {
   std::vector<TiedPoint> points(const Eigen::VectorXd& displacement) const;
 
  private:
-  /// Where a point is [m]: from the plane's point, itself and at rest.
+  /// Where a point is [m]: from the plane's point, itself and at rest; and the obstacle's axes
+  /// then.
   struct Relative {
     meshes::Vector3 now, rest;
+    Eigen::Matrix3d axes;
   };
+  /// Of the plane, at a place of its path.
+  Eigen::Matrix3d turn(double place) const;
   /// Its gap [m] and the gradient of that.
   struct GapAndNormal {
     double gap;
@@ -111,17 +133,35 @@ class StaticContact {
   }
   /// Derivative of the normal with respect to the place [1/m].
   Eigen::Matrix3d bend(const Relative& point) const;
+  /// What stretches the tie of an anchored point: from it to its anchor [m].
+  meshes::Vector3 stretch(std::size_t point, const Eigen::VectorXd& displacement) const;
+  /// By what the plane's turn carries a place of the plane on, from its point [m].
+  meshes::Vector3 turned(std::size_t point, const meshes::Vector3& fixed) const;
+  /// The other way, when the plane is at `place` [m] of its path.
+  meshes::Vector3 turned_back(std::size_t point, const meshes::Vector3& at, double place) const;
+  /// How deep an anchored point's tie is held along the normal: one that sticks is pulled back,
+  /// too.
+  double tied_depth(double gap) const {
+    return law_.mode == meshes::ContactMode::stick ? std::max(-gap, 0.0) : -gap;
+  }
+  /// The part of a tie's pull across that friction holds, and how long the tie is across [m].
+  struct Hold {
+    double length, share;
+  };
+  Hold hold(std::size_t point, const meshes::Vector3& stretch, double depth) const;
   /// At small strain as seen along the plane's normal [m²].
   double area(std::size_t point, const Eigen::VectorXd& displacement) const;
 
   const LatticeBody* body_;
   PressPlane plane_;
   Eigen::Matrix3d axes_;  ///< of the obstacle, as columns
-  bool stick_;
-  double place_ = 0.0;  ///< of the plane on its path [m]
+  ContactLaw law_;
+  double place_ = 0.0;                                  ///< of the plane on its path [m]
+  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();  ///< the plane's, there
   std::vector<std::uint8_t> anchored_, released_;
-  std::vector<meshes::Vector3> anchor_;         ///< from plane_.point [m]
-  std::vector<meshes::Vector3> anchor_normal_;  ///< of the obstacle there
+  std::vector<meshes::Vector3> anchor_;         ///< fixed to the plane, from plane_.point [m]
+  std::vector<double> limit_;                   ///< tie's length across that friction holds [m]
+  std::vector<meshes::Vector3> anchor_normal_;  ///< of the obstacle there, fixed to the plane
 };
 
 }  // namespace fingertip::lattice::inline statics

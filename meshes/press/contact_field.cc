@@ -95,4 +95,8 @@ Vector3 centre_of_pressure(std::span<const ContactPoint> points) {
   return sum / force;
 }
 
+double spin_torque(std::span<const ContactPoint> points) {
+  return points.empty() ? 0.0 : -sums_of(points, centre_of_pressure(points)).torque.z();
+}
+
 }  // namespace fingertip::meshes::inline press

@@ -73,4 +73,7 @@ ContactSums sums_of(std::span<const ContactPoint> points, const Vector3& about);
 /// Where the resultant of the normal forces acts, their mean place [m]; not of no points.
 Vector3 centre_of_pressure(std::span<const ContactPoint> points);
 
+/// About n, against the z axis, at the centre of pressure; 0 of no points [N m].
+double spin_torque(std::span<const ContactPoint> points);
+
 }  // namespace fingertip::meshes::inline press

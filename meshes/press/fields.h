@@ -35,12 +35,18 @@ FINGERTIP_FIELDS(StrainEnergy, law, volumetric, shape);
 
 consteval auto fields_of(const PressProtocol*) {
   return FINGERTIP_ALL_MEMBERS(PressProtocol, mode, contact, friction, tilt, lateral, lateral_path,
-                               lateral_samples, depth, speed, clearance, samples, obstacle, program)
+                               twist, lateral_samples, depth, speed, clearance, samples, obstacle,
+                               program)
       .only(&PressProtocol::has_obstacle, "obstacle")
+      .only(&PressProtocol::has_twist, "twist")
       .if_known("program");
 }
 
-FINGERTIP_FIELDS(PressStage, indentation, speed, hold);
+consteval auto fields_of(const PressStage*) {
+  return FINGERTIP_ALL_MEMBERS(PressStage, indentation, speed, hold, move, lateral, twist)
+      .only(&PressStage::moves_along_plane, "move")
+      .only(&PressStage::is_displaced, "lateral twist");
+}
 
 consteval auto fields_of(const Obstacle*) {
   return FINGERTIP_ALL_MEMBERS(Obstacle, shape, radius, along, offset)

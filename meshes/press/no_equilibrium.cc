@@ -21,22 +21,26 @@ std::string depth_setting(double indentation) {
          " mm\"";
 }
 
-std::string last_words(const std::string& who, double indentation, double lateral,
-                       const std::string& why, const std::string& remedy) {
+std::string last_words(const std::string& who, const PressPose& pose, const std::string& why,
+                       const std::string& remedy) {
+  const double indentation = pose.indentation;
   std::string text =
       who + " found no equilibrium beyond an indentation of " + text_of(indentation, "%.5g") + " m";
-  if (lateral != 0.0) text += " and a lateral displacement of " + text_of(lateral, "%.5g") + " m";
+  if (pose.lateral != 0.0)
+    text += " and a lateral displacement of " + text_of(pose.lateral, "%.5g") + " m";
+  if (pose.twist != 0.0) text += " and a twist of " + text_of(pose.twist, "%.5g") + " rad";
   if (!why.empty()) text += " (" + why + ")";
   text += "; press less deep";
   if (indentation > 0.0) text += ", " + depth_setting(indentation);
-  if (lateral != 0.0) text += ", move less far";
+  if (pose.lateral != 0.0) text += ", move less far";
+  if (pose.twist != 0.0) text += ", twist less";
   return text + ", or " + remedy;
 }
 
 }  // namespace
 
-NoEquilibrium::NoEquilibrium(const std::string& who, double indentation, double lateral,
-                             const std::string& why, const std::string& remedy)
-    : NoEquilibrium(last_words(who, indentation, lateral, why, remedy), indentation) {}
+NoEquilibrium::NoEquilibrium(const std::string& who, const PressPose& pose, const std::string& why,
+                             const std::string& remedy)
+    : NoEquilibrium(last_words(who, pose, why, remedy), pose.indentation) {}
 
 }  // namespace fingertip::meshes::inline press

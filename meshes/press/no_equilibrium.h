@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshes/base/errors.h"
+#include "meshes/press/press_protocol.h"
 
 namespace fingertip::meshes::inline press {
 
@@ -12,8 +13,8 @@ class NoEquilibrium : public NotConverged {
   NoEquilibrium(const std::string& text, double indentation)
       : NotConverged(text), indentation_(indentation) {}
   /// `who` pressed; `why`: the solver's last words, may be empty; `remedy`: what else may help than
-  /// to press less deep, or to move less far along the plane. `lateral` [m].
-  NoEquilibrium(const std::string& who, double indentation, double lateral, const std::string& why,
+  /// to press less deep, or to move less far along the plane.
+  NoEquilibrium(const std::string& who, const PressPose& pose, const std::string& why,
                 const std::string& remedy);
   double indentation() const { return indentation_; }  ///< the deepest that was found [m]
 

@@ -35,9 +35,17 @@ double time_from_rest(double speed, double rise, double way) {
   return 0.5 * (early + late);
 }
 
-MotionStage stage_of(const PressStage& stage, double begin, double from, double longest) {
-  MotionStage timed{begin, begin + stage.hold, from, stage.indentation, stage.speed, 0.0};
+/// Along the normal; a move along the plane or about the normal is a hold of its time.
+MotionStage stage_of(const PressStage& stage, const PressStage& before, double begin, double from,
+                     double longest) {
+  MotionStage timed{begin, begin + stage.hold, from, stage.indentation, 0.0, 0.0};
   if (!stage.moves()) return timed;
+  if (stage.moves_along_plane()) {
+    timed.end += (std::abs(stage.lateral - before.lateral) + std::abs(stage.twist - before.twist)) /
+                 stage.speed;
+    return timed;
+  }
+  timed.speed = stage.speed;
   const double way = std::abs(timed.to - from);
   timed.rise = std::min({longest_rise, longest / stage.speed, way / stage.speed});
   timed.end = begin + way / stage.speed + timed.rise;
@@ -53,12 +61,13 @@ PressMotion::PressMotion(const PressProtocol& protocol)
     const double end = (clearance_ + protocol.depth) / protocol.speed + 0.5 * rise;
     stages_.push_back({0.0, end, -clearance_, protocol.depth, protocol.speed, rise});
   }
-  for (const PressStage& stage : protocol.program) {
-    const bool first = stages_.empty();
+  for (std::size_t i = 0; i < protocol.program.size(); ++i) {
+    const bool first = i == 0;
+    const PressStage &stage = protocol.program[i], &before = protocol.program[first ? 0 : i - 1];
     const double from = first ? -clearance_ : stages_.back().to;
     const double whole_way = std::abs(stage.indentation - from);
-    stages_.push_back(
-        stage_of(stage, first ? 0.0 : stages_.back().end, from, first ? clearance_ : whole_way));
+    stages_.push_back(stage_of(stage, before, first ? 0.0 : stages_.back().end, from,
+                               first ? clearance_ : whole_way));
   }
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const MotionStage& stage = stages_[i];

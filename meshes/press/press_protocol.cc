@@ -11,6 +11,8 @@ namespace fingertip::meshes::inline press {
 namespace {
 /// Beyond it the sleeve's end may come near the plane [rad].
 constexpr double largest_tilt = 0.7854;
+/// A right angle [rad].
+constexpr double largest_twist = 1.5708;
 
 bool is_positive(double value) {
   return std::isfinite(value) && value > 0.0;
@@ -23,13 +25,16 @@ class ProgramRules {
       : protocol_(protocol), geometry_(geometry) {}
 
   std::vector<Violation> broken() {
-    double reached = -protocol_.clearance, deepest = reached;
+    PressStage reached{.indentation = -protocol_.clearance};
+    double deepest = reached.indentation;
     for (const PressStage& stage : protocol_.program) {
       ++number_;
-      if (stage.moves()) check_move(stage, reached);
-      if (!stage.moves()) check_hold(stage, reached);
-      reached = stage.indentation;
-      deepest = std::max(deepest, reached);
+      check_rest(stage, reached);
+      if (!stage.moves()) check_hold(stage);
+      if (stage.moves() && stage.moves_along_plane()) check_plane_move(stage, reached);
+      if (stage.moves() && !stage.moves_along_plane()) check_press(stage, reached.indentation);
+      reached = stage;
+      deepest = std::max(deepest, stage.indentation);
     }
     if (found_.empty()) check_whole(deepest);
     return std::move(found_);
@@ -43,7 +48,7 @@ class ProgramRules {
                         remedy});
   }
 
-  void check_move(const PressStage& stage, double reached) {
+  void check_press(const PressStage& stage, double reached) {
     const double to = stage.indentation;
     require(is_positive(stage.speed), "the speed of a move must be finite and positive",
             "an indentation below the last one moves up");
@@ -59,12 +64,40 @@ class ProgramRules {
     require(stage.hold == 0.0, "a stage moves or holds", "make two stages of it");
   }
 
-  void check_hold(const PressStage& stage, double reached) {
+  void check_plane_move(const PressStage& stage, const PressStage& reached) {
+    require(number_ > 1, "the first stage must press, to an indentation above 0",
+            "begin with the loading");
+    require(is_positive(stage.speed), "the speed of a move must be finite and positive",
+            "a displacement or angle below the last one moves back");
+    const bool twist = stage.move == StageMove::twist;
+    if (twist)
+      require(std::abs(stage.twist) <= largest_twist, "a twist lies between -90 and 90 degrees",
+              "twist less");
+    else
+      require(std::abs(stage.lateral) <= geometry_.tip_radius,
+              "the lateral motion must not exceed the tip's radius", "move less far");
+    require(twist ? stage.twist != reached.twist : stage.lateral != reached.lateral,
+            "the move ends where it begins",
+            "write [\"hold\", \"1 s\"] to stay, or drop the stage");
+  }
+
+  void check_hold(const PressStage& stage) {
     require(number_ > 1, "a program begins with a move", "press first, then hold");
     require(is_positive(stage.hold), "a hold must take a finite time above 0",
             "give its duration, or drop the stage");
-    require(number_ == 1 || stage.indentation == reached, "a hold stays at its indentation",
-            "give it that of the stage before");
+  }
+
+  /// What a stage does not change.
+  void check_rest(const PressStage& stage, const PressStage& reached) {
+    const bool moves = stage.moves();
+    const auto kept = [&](StageMove move, double now, double before) {
+      return (moves && stage.move == move) || now == before;
+    };
+    require(number_ == 1 || (kept(StageMove::press, stage.indentation, reached.indentation) &&
+                             kept(StageMove::lateral, stage.lateral, reached.lateral) &&
+                             kept(StageMove::twist, stage.twist, reached.twist)),
+            "a hold stays at its indentation, and a move changes one thing",
+            "give the rest as in the stage before");
   }
 
   void check_whole(double deepest) {
@@ -76,8 +109,13 @@ class ProgramRules {
             "press.speed must be the speed of the first stage, " +
                 to_text(protocol_.program.front().speed) + " m/s",
             "leave press.speed out");
-    require(!protocol_.slides_after(), "no lateral motion follows the stages of a program",
-            "take press.lateral_path = diagonal, or leave one of the two out");
+    require(!protocol_.moves_after(),
+            "no lateral motion and no twist follow the stages of a program",
+            "make stages of them, [\"lateral\", \"1 mm\", \"1 cm/s\"] or [\"twist\", \"5 deg\", "
+            "\"10 deg/s\"]");
+    require(protocol_.lateral == 0.0 || !protocol_.has_plane_moves(),
+            "press.lateral moves the plane on the way down, lateral stages after it",
+            "leave press.lateral out");
   }
 
   const PressProtocol& protocol_;
@@ -87,80 +125,141 @@ class ProgramRules {
 };
 }  // namespace
 
-PressPath::PressPath(const PressProtocol& protocol)
-    : length_(protocol.depth),
-      samples_(protocol.samples.empty() ? default_samples(protocol.depth) : protocol.samples) {
-  if (!protocol.program.empty()) {
-    slope_ = protocol.lateral / protocol.depth;
-    samples_.clear();
-    length_ = 0.0;
-    double from = 0.0, number = 0.0;
-    for (const PressStage& stage : protocol.program) {
-      ++number;
-      if (!stage.moves()) continue;
-      for (const double depth : depths_on_the_way(protocol, from, stage.indentation)) {
-        samples_.push_back(length_ + std::abs(depth - from));
-        sample_depths_.push_back(depth);
-        sample_stages_.push_back(number);
-      }
-      length_ = samples_.back();
-      from = stage.indentation;
-      moves_.emplace_back(length_, from);
+namespace {
+
+/// One way, with the poses at which output is wanted; the last one ends it.
+struct Way {
+  std::vector<PressPose> poses;
+  double stage = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Along the normal, at these depths; `slope` is the lateral displacement per indentation.
+Way along_normal(const PressPose& from, const std::vector<double>& depths, double slope) {
+  Way way;
+  for (const double depth : depths)
+    way.poses.push_back({depth, slope == 0.0 ? from.lateral : slope * depth, from.twist});
+  return way;
+}
+
+/// Along the plane, about its normal, or both, in equal steps.
+Way along_plane(const PressPose& from, const PressPose& to, int steps) {
+  Way way;
+  for (int i = 1; i < steps; ++i) {
+    const auto between = [&](double a, double b) { return a + (b - a) * i / steps; };
+    way.poses.push_back(
+        {to.indentation, between(from.lateral, to.lateral), between(from.twist, to.twist)});
+  }
+  way.poses.push_back(to);
+  return way;
+}
+
+std::vector<Way> ways_of(const PressProtocol& protocol) {
+  const double diagonal =
+      protocol.lateral_path == LateralPath::diagonal ? protocol.lateral / protocol.depth : 0.0;
+  const int steps = protocol.lateral_samples;
+  std::vector<Way> ways;
+  if (protocol.program.empty()) {
+    ways.push_back(along_normal(
+        {}, protocol.samples.empty() ? default_samples(protocol.depth) : protocol.samples,
+        diagonal));
+    const PressPose pressed = ways.back().poses.back();
+    const bool after = protocol.lateral_path == LateralPath::after;
+    if (protocol.moves_after())
+      ways.push_back(along_plane(
+          pressed, {protocol.depth, after ? protocol.lateral : pressed.lateral, protocol.twist},
+          steps));
+    return ways;
+  }
+  PressPose now;
+  double number = 0.0;
+  for (const PressStage& stage : protocol.program) {
+    ++number;
+    if (!stage.moves()) continue;
+    ways.push_back(
+        stage.moves_along_plane()
+            ? along_plane(now, {stage.indentation, stage.lateral, stage.twist}, steps)
+            : along_normal(now, depths_on_the_way(protocol, now.indentation, stage.indentation),
+                           diagonal));
+    ways.back().stage = number;
+    now = ways.back().poses.back();
+  }
+  return ways;
+}
+
+}  // namespace
+
+PressPath::PressPath(const PressProtocol& protocol) {
+  legs_.clear();
+  PressPose now;
+  double place = 0.0;
+  for (const Way& way : ways_of(protocol)) {
+    const auto length = [&](const PressPose& to) {
+      const double up_or_down = std::abs(to.indentation - now.indentation);
+      return up_or_down > 0.0 ? up_or_down
+                              : std::abs(to.lateral - now.lateral) +
+                                    protocol.depth * std::abs(to.twist - now.twist);
+    };
+    for (const PressPose& pose : way.poses) {
+      samples_.push_back(place + length(pose));
+      poses_.push_back(pose);
+      if (!std::isnan(way.stage)) stages_.push_back(way.stage);
     }
-    return;
+    const PressPose& to = way.poses.back();
+    const double whole = length(to);
+    legs_.push_back({place,
+                     samples_.back(),
+                     now,
+                     {(to.indentation - now.indentation) / whole,
+                      (to.lateral - now.lateral) / whole, (to.twist - now.twist) / whole}});
+    place = samples_.back();
+    now = to;
   }
-  if (!protocol.slides_after()) {
-    slope_ = protocol.lateral / protocol.depth;
-    return;
-  }
-  corner_ = protocol.depth;
-  lateral_ = protocol.lateral;
-  length_ = corner_ + std::abs(lateral_);
-  steps_ = protocol.lateral_samples;
-  for (int i = 1; i < steps_; ++i) samples_.push_back(corner_ + std::abs(lateral_) * i / steps_);
-  samples_.push_back(length_);
 }
 
 double PressPath::stage(std::size_t sample) const {
-  return sample_stages_.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                : sample_stages_.at(sample);
+  return stages_.empty() ? std::numeric_limits<double>::quiet_NaN() : stages_.at(sample);
 }
 
 bool PressPath::bends(double from, double to) const {
-  if (from < corner_ && corner_ < to) return true;
-  return std::ranges::any_of(moves_,
-                             [&](const auto& end) { return from < end.first && end.first < to; });
+  return std::any_of(legs_.begin(), legs_.end() - 1,
+                     [&](const Leg& leg) { return from < leg.end && leg.end < to; });
 }
 
 PressPose PressPath::at(double s) const {
-  if (!moves_.empty()) {
-    // A sample lies where it was asked for, without the rounding of s.
-    const auto sample = std::ranges::lower_bound(samples_, s);
-    double depth = s;
-    if (sample != samples_.end() && *sample == s) {
-      depth = sample_depths_[std::size_t(sample - samples_.begin())];
-    } else {
-      const auto end =
-          std::ranges::find_if(moves_, [s](const auto& move) { return s < move.first; });
-      const bool first = end == moves_.begin();
-      if (end == moves_.end()) {
-        depth = moves_.back().second;
-      } else if (!first) {
-        const auto& [place, from] = *(end - 1);
-        depth = from + std::copysign(s - place, end->second - from);
-      }
-    }
-    return {depth, slope_ * depth};
-  }
-  if (s <= corner_) return {s, slope_ * s};
   // A sample lies where it was asked for, without the rounding of s.
-  constexpr double rounding = 1e-9;
-  const double step = steps_ * (s - corner_) / (length_ - corner_), whole = std::round(step);
-  return {corner_, lateral_ * (std::abs(step - whole) < rounding ? whole : step) / steps_};
+  const auto sample = std::ranges::lower_bound(samples_, s);
+  if (sample != samples_.end() && *sample == s)
+    return poses_[std::size_t(sample - samples_.begin())];
+  const auto found = std::ranges::find_if(legs_, [s](const Leg& leg) { return s < leg.end; });
+  const Leg& leg = found == legs_.end() ? legs_.back() : *found;
+  const double way = s - leg.begin;
+  return {leg.from.indentation + way * leg.slope.indentation,
+          leg.from.lateral + way * leg.slope.lateral, leg.from.twist + way * leg.slope.twist};
+}
+
+bool PressProtocol::has_plane_moves() const {
+  return std::ranges::any_of(program, &PressStage::moves_along_plane);
+}
+
+bool PressProtocol::twists() const {
+  return twist != 0.0 ||
+         std::ranges::any_of(program, [](const PressStage& stage) { return stage.twist != 0.0; });
+}
+
+std::pair<double, double> PressProtocol::lateral_range() const {
+  std::pair<double, double> range = std::minmax(0.0, lateral);
+  for (const PressStage& stage : program)
+    range = {std::min(range.first, stage.lateral), std::max(range.second, stage.lateral)};
+  return range;
 }
 
 bool PressProtocol::goes_back() const {
-  return !std::ranges::is_sorted(program, {}, &PressStage::indentation);
+  const auto turns_round = [this](double PressStage::*way) {
+    return !std::ranges::is_sorted(program, {}, way) &&
+           !std::ranges::is_sorted(program, std::ranges::greater(), way);
+  };
+  return !std::ranges::is_sorted(program, {}, &PressStage::indentation) ||
+         turns_round(&PressStage::lateral) || turns_round(&PressStage::twist);
 }
 
 std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const {
@@ -188,6 +287,8 @@ std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const
           "the tilt must lie between -45 and 45 degrees", "tilt less");
   require(std::abs(lateral) <= geometry.tip_radius, "press.lateral", to_text(lateral) + " m",
           "the lateral motion must not exceed the tip's radius", "move less far");
+  require(std::abs(twist) <= largest_twist, "press.twist", to_text(twist) + " rad",
+          "the twist must lie between -90 and 90 degrees", "twist less");
   require(lateral_samples > 0, "press.lateral_samples", std::to_string(lateral_samples),
           "a lateral motion needs at least one output", "1 gives its end alone");
   append(found, obstacle.violations(geometry, tilt));

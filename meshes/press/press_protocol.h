@@ -27,6 +27,13 @@ enum class DriveMode {
   equilibrium,   ///< no time: a path of static equilibria
 };
 
+/// What a stage of a press changes.
+enum class StageMove {
+  press,    ///< the indentation
+  lateral,  ///< the plane's displacement along t1
+  twist,    ///< its turn about the normal
+};
+
 /// When the plane moves laterally.
 enum class LateralPath {
   diagonal,  ///< on the way down, in proportion to the indentation
@@ -47,19 +54,31 @@ constexpr auto names_of(LateralPath) {
   return names<LateralPath>({{diagonal, "diagonal"}, {after, "after"}});
 }
 
-/// Where the plane is, seen from the rod [m].
+constexpr auto names_of(StageMove) {
+  using enum StageMove;
+  return names<StageMove>({{press, "press"}, {lateral, "lateral"}, {twist, "twist"}});
+}
+
+/// Where the plane is, seen from the rod.
 struct PressPose {
-  double indentation = 0.0;
-  double lateral = 0.0;  ///< displacement along t1
+  double indentation = 0.0;  ///< [m]
+  double lateral = 0.0;      ///< displacement along t1 [m]
+  double twist = 0.0;  ///< turn about n through the plane's point below the tip's centre [rad]
 };
 
-/// A part of a press in time: a move on to another indentation, or a hold.
+/// A part of a press in time: a move on to another indentation, lateral displacement or twist, or a
+/// hold. What it does not change is that of the stage before.
 struct PressStage {
-  double indentation = 0.0;  ///< at its end [m]; of a hold that of the stage before; 0: first touch
-  double speed = 0.0;        ///< of a move [m/s], > 0; 0: a hold
+  double indentation = 0.0;  ///< at its end [m]; 0: first touch
+  double speed = 0.0;        ///< of a move [m/s], of a twist [rad/s], > 0; 0: a hold
   double hold = 0.0;         ///< how long a hold lasts [s], > 0; 0: a move
+  StageMove move = StageMove::press;
+  double lateral = 0.0;  ///< at its end [m]
+  double twist = 0.0;    ///< at its end [rad]
 
   bool moves() const { return speed != 0.0; }
+  bool moves_along_plane() const { return move != StageMove::press; }
+  bool is_displaced() const { return lateral != 0.0 || twist != 0.0; }
   bool operator==(const PressStage&) const = default;
 };
 
@@ -73,7 +92,9 @@ struct PressProtocol {
   double tilt = 0.0;      ///< of the rod against the plane's normal, about y [rad]
   double lateral = 0.0;   ///< displacement of the plane along t1 at the end [m]
   LateralPath lateral_path = LateralPath::diagonal;
-  int lateral_samples = 10;   ///< outputs at full depth, path after only: equal steps, > 0
+  /// Of the plane about n, at full depth, together with a lateral motion that follows [rad].
+  double twist = 0.0;
+  int lateral_samples = 10;   ///< outputs of a motion along the plane or twist: equal steps, > 0
   double depth = 3.0e-3;      ///< final indentation [m], 0 < depth < R - r
   double speed = 1.0e-2;      ///< approach speed [m/s], > 0
   double clearance = 0.5e-3;  ///< initial gap between pole and plane [m], > 0; starts at rest
@@ -84,25 +105,37 @@ struct PressProtocol {
   /// still moving when it ends.
   std::vector<PressStage> program = {};
 
-  /// Whether a second phase follows the press: a lateral motion at full depth.
-  bool slides_after() const { return lateral_path == LateralPath::after && lateral != 0.0; }
+  /// Whether a second phase follows the press: a lateral motion or a twist at full depth.
+  bool moves_after() const {
+    return twist != 0.0 || (lateral_path == LateralPath::after && lateral != 0.0);
+  }
+  /// Whether some stage of a program moves along the plane or twists.
+  bool has_plane_moves() const;
+  /// Lateral displacements between which the plane moves [m]; 0 is one of them.
+  std::pair<double, double> lateral_range() const;
+  /// Whether the plane turns about its normal.
+  bool twists() const;
+  /// Whether the plane only comes nearer, or goes away again.
+  bool is_straight() const { return lateral_range() == std::pair(0.0, 0.0) && !twists(); }
 
   bool has_obstacle() const { return !obstacle.is_plane(); }
+  bool has_twist() const { return twist != 0.0; }
 
-  /// Whether it is its own image in x = 0; in y = 0 it always is.
-  bool mirrored() const { return tilt == 0.0 && lateral == 0.0 && obstacle.mirrored(); }
+  /// Whether it is its own image in x = 0 (axis 0), in y = 0 (1).
+  bool mirrored(int axis) const {
+    return axis == 1 ? !twists() : tilt == 0.0 && is_straight() && obstacle.mirrored();
+  }
 
-  /// Whether some stage of a program goes back up.
+  /// Whether some stage of a program goes back: up, or along the plane or in twist the other way.
   bool goes_back() const;
 
   std::vector<Violation> violations(const Geometry& geometry) const;
 };
 
-/// The plane's path by a coordinate s [m] that is 0 at first touch and grows: the indentation, and
-/// where a lateral motion follows the press, depth plus the distance moved laterally; of a program
-/// the way travelled along the normal, up or down. The path is straight but for its corners: at
-/// full depth, when a lateral motion follows, and where a program's moves end. Holds are no part of
-/// it.
+/// The plane's path by a coordinate s [m] that is 0 at first touch and grows by the way travelled:
+/// along the normal, up or down, along t1, or, of a twist, by depth times its angle. It is straight
+/// but for its corners: at full depth, when a motion follows, and where a program's moves end.
+/// Holds are no part of it.
 class PressPath {
  public:
   /// Straight along the normal, without end.
@@ -110,27 +143,29 @@ class PressPath {
   explicit PressPath(const PressProtocol& protocol);
 
   /// Of the whole path.
-  double length() const { return length_; }
+  double length() const { return legs_.back().end; }
   PressPose at(double s) const;
   /// Displacement along t1 per indentation on the way down.
-  double slope() const { return slope_; }
+  double slope() const { return legs_.front().slope.lateral; }
   /// Whether a corner lies between two places of the path.
   bool bends(double from, double to) const;
-  /// Where output is wanted: at the protocol's samples (or default_samples) and after them at equal
-  /// steps of the lateral motion that follows; of every move of a program at depths_on_the_way.
+  /// Where output is wanted: at the protocol's samples (or default_samples) and at equal steps of
+  /// the motion that follows; of every move of a program at depths_on_the_way, or equal steps.
   /// Increasing; ends at length().
   const std::vector<double>& samples() const { return samples_; }
   /// The stage of a program in which a sample lies, from 1 and holds counted; NaN without one.
   double stage(std::size_t sample) const;
 
  private:
-  double slope_ = 0.0;
-  double corner_ = std::numeric_limits<double>::infinity(), length_ = corner_;
-  double lateral_ = 0.0;  ///< beyond the corner, to the end [m]
-  int steps_ = 0;         ///< samples beyond the corner
-  std::vector<double> samples_;
-  std::vector<std::pair<double, double>> moves_;  ///< of a program: place, indentation at ends [m]
-  std::vector<double> sample_depths_, sample_stages_;  ///< of a program: of samples_ [m]
+  struct Leg {
+    double begin = 0.0, end = std::numeric_limits<double>::infinity();
+    PressPose from;                       ///< where it begins
+    PressPose slope{.indentation = 1.0};  ///< change per s
+  };
+
+  std::vector<Leg> legs_{Leg{}};
+  std::vector<double> samples_, stages_;  ///< stages of a program alone
+  std::vector<PressPose> poses_;          ///< of samples_
 };
 
 /// Output depths [m] of a move between two indentations [m]: those of the protocol's samples (or

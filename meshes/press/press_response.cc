@@ -81,6 +81,17 @@ void PressSample::set_contact(double radius, double peak) {
   max_pressure = peak;
 }
 
+bool PressSample::is_beside(const PressSample& other) const {
+  constexpr double same = 1e-9;
+  for (double PressSample::*place : {&PressSample::stage, &PressSample::indentation,
+                                     &PressSample::lateral_displacement, &PressSample::twist}) {
+    const double here = is_given(this->*place) ? this->*place : 0.0,
+                 there = is_given(other.*place) ? other.*place : 0.0;
+    if (std::abs(here - there) > same * std::abs(here)) return false;
+  }
+  return true;
+}
+
 void PressSample::set_errors(double relative) {
   constexpr double left = 1e-7;  // by solvers of what vanishes
   constexpr double coupling = 0.125;
@@ -149,12 +160,11 @@ double PressResponse::relative_error_at(double indentation) const {
 }
 
 void PressResponse::write_csv(const std::filesystem::path& file) const {
-  const bool moves_laterally = std::ranges::any_of(samples_, [](const PressSample& sample) {
-    return std::abs(sample.lateral_displacement) > 0.0;
-  });
   std::vector<PressSample> rows = samples_;
-  if (!moves_laterally)
-    for (PressSample& row : rows) row.lateral_displacement = unknown;
+  for (double PressSample::*moved : {&PressSample::lateral_displacement, &PressSample::twist})
+    if (std::ranges::none_of(rows,
+                             [&](const PressSample& row) { return std::abs(row.*moved) > 0.0; }))
+      for (PressSample& row : rows) row.*moved = unknown;
   write_rows(rows, file);
 }
 
@@ -170,11 +180,14 @@ PressResponse PressResponse::of(const CsvTable& table) {
     const bool program = is_given(before.stage) || is_given(now.stage);
     if (program) check_stage(table, row, before, now);
     if (program && now.stage > samples.front().stage) continue;
-    const bool slides = now.indentation == before.indentation &&
-                        std::abs(now.lateral_displacement) > std::abs(before.lateral_displacement);
+    const bool slides =
+        now.indentation == before.indentation &&
+        (std::abs(now.lateral_displacement) > std::abs(before.lateral_displacement) ||
+         std::abs(now.twist) > std::abs(before.twist));
     if (now.indentation <= before.indentation && !slides) {
       refuse(table, row, "indentation [m]", to_text(now.indentation),
-             "indentations must increase from row to row (or lateral displacements at full depth)");
+             "indentations must increase from row to row (or lateral displacements or twists at "
+             "full depth)");
     }
   }
   return PressResponse(std::move(samples));

@@ -30,15 +30,20 @@ struct PressSample {
   double force_error = unknown;      ///< estimated error of normal_force [N]
   double time = unknown;             ///< since the start of the press [s]; empty for static runs
   double lateral_displacement = unknown;  ///< of the plane along t1, seen from the rod [m]
-  double lateral_force_error = unknown;   ///< length of the estimated error of both [N]
-  double torque_error = unknown;          ///< length of the estimated error of all three [N m]
-  double stage = unknown;                 ///< of the press's program, from 1; unknown without one
+  double twist = unknown;                 ///< of the plane about n, seen from the rod [rad]
+  double spin_torque =
+      unknown;  ///< of the plane on the tip about n at the centre of pressure [N m]
+  double lateral_force_error = unknown;  ///< length of the estimated error of both [N]
+  double torque_error = unknown;         ///< length of the estimated error of all three [N m]
+  double stage = unknown;                ///< of the press's program, from 1; unknown without one
 
   /// Radius, area, mean and largest pressure; the normal force must be known by then.
   void set_contact(double radius, double peak);
   /// Force and torque as vectors; nothing where one of them is unknown.
   Eigen::Vector3d force() const { return {lateral_force_x, lateral_force_y, normal_force}; }
   Eigen::Vector3d torque() const { return {torque_x, torque_y, torque_z}; }
+  /// Whether both stand at one place of one stage, to 1e-9 of it.
+  bool is_beside(const PressSample& other) const;
   /// From the `relative` error of a normal force N those of the lateral force Q and the torque T:
   /// relative (|Q| + |N|/8), for what is off of the pressure pushes aside by
   /// (1 - 2 nu)/(2 - 2 nu), 1/8 at nu = 0.43; relative (|T| + a (|N| + |Q|)), for its place is
@@ -51,19 +56,21 @@ consteval auto fields_of(const PressSample*) {
   return FINGERTIP_ALL_MEMBERS(PressSample, indentation, normal_force, lateral_force_x,
                                lateral_force_y, torque_x, torque_y, torque_z, contact_radius,
                                max_pressure, force_error, time, contact_area, mean_pressure,
-                               lateral_displacement, lateral_force_error, torque_error, stage)
+                               lateral_displacement, twist, spin_torque, lateral_force_error,
+                               torque_error, stage)
       .in("m", "indentation contact_radius lateral_displacement")
+      .in("rad", "twist")
       .in("N", "normal_force lateral_force_x lateral_force_y force_error lateral_force_error")
-      .in("N m", "torque_x torque_y torque_z torque_error")
+      .in("N m", "torque_x torque_y torque_z spin_torque torque_error")
       .in("m^2", "contact_area")
       .in("Pa", "mean_pressure max_pressure")
       .in("s", "time")
-      .if_known("lateral_displacement lateral_force_error torque_error stage");
+      .if_known("lateral_displacement twist spin_torque lateral_force_error torque_error stage");
 }
 
-/// A curve of samples by increasing indentation, and then, where a lateral motion follows the
-/// press, at full depth by increasing distance moved laterally; of a program its first stage by
-/// increasing indentation, and then the others in the order of time.
+/// A curve of samples by increasing indentation, and then, where a lateral motion or a twist
+/// follows the press, at full depth by increasing distance or angle; of a program its first stage
+/// by increasing indentation, and then the others in the order of time.
 class PressResponse {
  public:
   PressResponse() = default;
@@ -77,7 +84,7 @@ class PressResponse {
 
   /// The samples of the first loading: by increasing indentation.
   std::span<const PressSample> pressing() const;
-  /// Those of the lateral motion that follows, all at full depth; mostly none.
+  /// Those of the lateral motion or twist that follows, all at full depth; mostly none.
   std::span<const PressSample> sliding() const;
 
   /// Those of the further stages of a program; mostly none.
@@ -104,7 +111,7 @@ class PressResponse {
   /// Reads a CSV with at least the columns `indentation [m]` and `normal_force [N]`; others may
   /// be missing or empty. Throws InvalidInput naming file and line for a missing column, a cell
   /// that is no number, a truncated row, or indentations that do not increase, unless it is the
-  /// lateral displacement that does, or the stage of a program and with it the time.
+  /// lateral displacement or twist that does, or the stage of a program and with it the time.
   static PressResponse read_csv(const std::filesystem::path& file);
   static PressResponse of(const CsvTable& table);
 

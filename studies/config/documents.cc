@@ -61,7 +61,7 @@ nlohmann::json element_schema(const Key& key) {
     case Kind::stages:
       return {{"type", "array"},
               {"minItems", 2},
-              {"maxItems", 2},
+              {"maxItems", 3},
               {"items", {{"type", "string"}, {"minLength", 1}}}};
     case Kind::integer: schema["type"] = "integer"; break;
     case Kind::number:

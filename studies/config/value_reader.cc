@@ -126,37 +126,56 @@ Value read_terms(const Key& key, const toml::node& node) {
 }
 
 constexpr const char* stage_advice =
-    "write e.g. [[\"0.3 cm\", \"1 cm/s\"], [\"hold\", \"2 s\"], [\"0 cm\", \"1 cm/s\"]]";
+    "write e.g. [[\"0.3 cm\", \"1 cm/s\"], [\"hold\", \"2 s\"], [\"twist\", \"5 deg\", \"10 "
+    "deg/s\"], "
+    "[\"0 cm\", \"1 cm/s\"]]";
 
-/// One of a program: where it ends, at which speed, how long it holds; `reached` before it.
-std::array<double, 3> read_stage(const toml::node& node, double reached) {
-  const auto* pair = node.as_array();
-  const auto text = [&](std::size_t i) { return pair->at(i).value<std::string>(); };
-  if (pair == nullptr || pair->size() != 2 || !text(0) || !text(1))
-    refuse("must be a pair of texts, [indentation, speed] or [\"hold\", duration]", stage_advice);
-  if (*text(0) == "hold") {
-    const double duration = parse_quantity(*text(1), "s", "2 s");
-    if (!(duration > 0.0)) refuse("a hold must take a time above 0", "drop the stage");
-    return {reached, 0.0, duration};
+/// One of a program; `reached` is the one before it.
+meshes::PressStage read_stage(const toml::node& node, const meshes::PressStage& reached) {
+  const auto* list = node.as_array();
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i)
+    texts.push_back(list->at(i).value<std::string>().value_or(""));
+  const auto move = texts.empty() ? std::nullopt : meshes::enumerator<meshes::StageMove>(texts[0]);
+  const bool along_plane = move && *move != meshes::StageMove::press;
+  if (texts.size() != (along_plane ? 3U : 2U) ||
+      std::ranges::any_of(texts, [](const std::string& text) { return text.empty(); }))
+    refuse(
+        "must be a list of texts, [indentation, speed], [\"hold\", duration], [\"lateral\", "
+        "displacement, speed] or [\"twist\", angle, speed]",
+        stage_advice);
+  meshes::PressStage stage = reached;
+  stage.move = move.value_or(meshes::StageMove::press);
+  stage.speed = stage.hold = 0.0;
+  if (texts[0] == "hold") {
+    stage.hold = parse_quantity(texts[1], "s", "2 s");
+    if (!(stage.hold > 0.0)) refuse("a hold must take a time above 0", "drop the stage");
+    return stage;
   }
-  const double indentation = parse_quantity(*text(0), "m", "0.3 cm"),
-               speed = parse_quantity(*text(1), "m/s", "1 cm/s");
-  if (!(speed > 0.0))
-    refuse("the speed of a move must be positive", "an indentation below the last one moves up");
-  return {indentation, speed, 0.0};
+  const bool twist = stage.move == meshes::StageMove::twist;
+  if (twist)
+    stage.twist = parse_quantity(texts[1], "rad", "5 deg");
+  else
+    (along_plane ? stage.lateral : stage.indentation) =
+        parse_quantity(texts[along_plane ? 1 : 0], "m", "0.3 cm");
+  stage.speed =
+      parse_quantity(texts.back(), twist ? "rad/s" : "m/s", twist ? "10 deg/s" : "1 cm/s");
+  if (!(stage.speed > 0.0))
+    refuse("the speed of a move must be positive", "what is below the last one moves back");
+  return stage;
 }
 
 Value read_stages(const toml::node& node) {
   const auto* list = node.as_array();
-  if (list == nullptr)
-    refuse("must be a list of pairs, [indentation, speed] or [\"hold\", duration]", stage_advice);
+  if (list == nullptr) refuse("must be a list of stages", stage_advice);
   Value value;
-  double reached = 0.0;
+  meshes::PressStage reached;
   for (std::size_t i = 0; i < list->size(); ++i) {
     try {
-      const std::array<double, 3> stage = read_stage(list->at(i), reached);
-      reached = stage[0];
-      value.numbers.insert(value.numbers.end(), stage.begin(), stage.end());
+      reached = read_stage(list->at(i), reached);
+      value.numbers.insert(value.numbers.end(),
+                           {reached.indentation, reached.speed, reached.hold, double(reached.move),
+                            reached.lateral, reached.twist});
     } catch (const UnitError& error) {
       refuse("stage " + std::to_string(i + 1) + ": " + error.rule, error.remedy);
     }

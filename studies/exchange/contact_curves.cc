@@ -74,6 +74,8 @@ std::vector<meshes::Violation> not_straight(const meshes::PressProtocol& protoco
     refuse("press.tilt", meshes::to_text(protocol.tilt) + " rad", "choose 0");
   if (protocol.lateral != 0.0)
     refuse("press.lateral", meshes::to_text(protocol.lateral) + " m", "choose 0");
+  if (protocol.has_twist())
+    refuse("press.twist", meshes::to_text(protocol.twist) + " rad", "choose 0");
   if (!protocol.program.empty())
     refuse("press.program", std::to_string(protocol.program.size()) + " stages",
            "leave it out; press.depth says how deep");

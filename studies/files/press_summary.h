@@ -134,18 +134,20 @@ FINGERTIP_FIELDS(EndEntry, time, indentation, normal_force);
 /// A stage of a press's program. Times since the start [s], unknown without time; forces [N],
 /// unknown where the press did not get.
 struct StageEntry {
-  std::string kind;  ///< "move" or "hold"
+  std::string kind;  ///< "move", "hold", "lateral" or "twist"
   double indentation = meshes::unknown, speed = meshes::unknown, begin = meshes::unknown,
          end = meshes::unknown, begin_force = meshes::unknown, end_force = meshes::unknown,
          relaxation = meshes::unknown;  ///< of a hold: the part of the force that went
+  double lateral = meshes::unknown,
+         twist = meshes::unknown;  ///< at the end, of stages that move so
   bool moves() const { return kind != "hold"; }
   bool holds() const { return !moves(); }
 };
 consteval auto fields_of(const StageEntry*) {
   return FINGERTIP_ALL_MEMBERS(StageEntry, kind, indentation, speed, begin, end, begin_force,
-                               end_force, relaxation)
+                               end_force, relaxation, lateral, twist)
       .only(&StageEntry::holds, "relaxation")
-      .if_known("speed");
+      .if_known("speed lateral twist");
 }
 
 /// Where the error of the forces is from, or why there is none, and how large it is.

@@ -17,6 +17,7 @@ constexpr double deepest = 0.7;
 lattice::PressSetup under_control(lattice::PressSetup setup) {
   setup.protocol.mode = meshes::DriveMode::pid;
   setup.protocol.program.clear();  // here a person moves the set point
+  setup.protocol.twist = 0.0;
   return setup;
 }
 

@@ -48,8 +48,10 @@ ErrorSource error_source(const LoadedConfig& loaded) {
     return estimated("the continuum refuses this press (" + error.violations().front().rule + ")");
   }
   reference.estimate_error = true;
-  if (!config.press.protocol.program.empty())
-    return estimated("the continuum beside a press knows no program");
+  const bool at_rest = config.press.protocol.mode == meshes::DriveMode::equilibrium &&
+                       reference.rubber.relaxation.empty();
+  if (!config.press.protocol.program.empty() && !at_rest)
+    return estimated("the continuum beside a press knows no program in time");
   if (by == ForceErrorBy::automatic) {
     const std::string found = " (run.error = \"continuum\" presses it)";
     if (!reference.axisymmetric()) return estimated("the continuum is a solid" + found);
@@ -84,19 +86,16 @@ PressResponse with_force_error(const PressResponse& response, const PressRespons
   std::vector<PressSample> samples = response.samples();
   const auto pressed = continuum.pressing();
   const std::size_t loading = response.pressing().size();
-  const auto same_place = [&](const PressSample& sample, double PressSample::*place) {
-    return [&sample, place](const PressSample& other) {
-      return same_length(other.*place, sample.*place);
-    };
-  };
+  const std::span after = std::span(continuum.samples()).subspan(pressed.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     PressSample& sample = samples[i];
     sample.set_errors(meshes::unknown);
     if (continuum.empty()) continue;
-    const auto among = i < loading ? pressed : continuum.sliding();
-    const auto beside = std::ranges::find_if(
-        among, same_place(sample, i < loading ? &PressSample::indentation
-                                              : &PressSample::lateral_displacement));
+    const auto among = i < loading ? pressed : after;
+    const auto beside = std::ranges::find_if(among, [&](const PressSample& other) {
+      return i < loading ? same_length(other.indentation, sample.indentation)
+                         : other.is_beside(sample);
+    });
     if (beside != among.end()) {
       put_errors(sample, *beside);
     } else if (i < loading && sample.indentation > pressed.front().indentation &&

@@ -83,6 +83,7 @@ lattice::GraspSetup grasp_setup(const LoadedConfig& loaded) {
   protocol.mode = meshes::DriveMode::quasi_static;
   protocol.tilt = straight.tilt;
   protocol.lateral = straight.lateral;
+  protocol.twist = straight.twist;
   protocol.obstacle = straight.obstacle;
   protocol.program = straight.program;
   const lattice::PressSetup press = press_setup(fingers);

@@ -96,6 +96,7 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::StaticO
   summary.effort = {outcome.steps, outcome.newton_iterations, outcome.factorisations,
                     outcome.gradients};
   summary.program = stage_entries(setup.protocol, outcome.response);
+  if (setup.protocol.goes_back()) summary.loop_area = work_along(outcome.response);
   summary.smallest_jacobian = outcome.smallest_jacobian;
   summary.wall_time = outcome.wall_time;
   return summary;

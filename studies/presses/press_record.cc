@@ -20,14 +20,20 @@ void drop(ordered_json& inputs, std::initializer_list<const char*> idle) {
 
 ordered_json inputs_of(const meshes::PressProtocol& protocol, bool moves) {
   ordered_json inputs = json_of(protocol);
-  if (!protocol.slides_after()) drop(inputs, {"lateral_path", "lateral_samples"});
+  if (!protocol.moves_after()) drop(inputs, {"lateral_path"});
+  if (!protocol.moves_after() && !protocol.has_plane_moves()) drop(inputs, {"lateral_samples"});
   if (protocol.contact != meshes::ContactMode::coulomb) drop(inputs, {"friction"});
   if (moves) return inputs;
   drop(inputs, {"speed", "clearance"});
   if (protocol.program.empty()) return inputs;
   ordered_json stages = ordered_json::array();
   for (const meshes::PressStage& stage : protocol.program)  // without time a hold only counts
-    stages.push_back(stage.moves() ? ordered_json(stage.indentation) : ordered_json());
+    if (!stage.moves())
+      stages.push_back(nullptr);
+    else if (stage.moves_along_plane())
+      stages.push_back({stage.indentation, stage.lateral, stage.twist});
+    else
+      stages.push_back(stage.indentation);
   inputs["program"] = stages;
   return inputs;
 }

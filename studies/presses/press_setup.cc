@@ -309,6 +309,7 @@ void check_all(const LoadedConfig& loaded) {
   protocol.contact = straight.contact;
   protocol.tilt = straight.tilt;
   protocol.lateral = straight.lateral;
+  protocol.twist = straight.twist;
   // What a moving lattice still cannot do, one at rest can; the verbs that move it tell.
   if (!lattice::beyond_the_lattice(within_the_lattice.config.press).empty())
     protocol.mode = meshes::DriveMode::equilibrium;

@@ -43,9 +43,24 @@ double area_below(std::vector<double> x, std::vector<double> y) {
 
 StageEntry entry_of(const meshes::PressStage& stage) {
   StageEntry entry;
-  entry.kind = stage.moves() ? "move" : "hold";
+  entry.kind = !stage.moves()              ? "hold"
+               : stage.moves_along_plane() ? std::string(name(stage.move))
+                                           : "move";
   entry.indentation = stage.indentation;
+  if (stage.move == meshes::StageMove::lateral) entry.lateral = stage.lateral;
+  if (stage.move == meshes::StageMove::twist) entry.twist = stage.twist;
   return entry;
+}
+
+/// Of the plane on the tip between two rows [J].
+double work_along_plane(const meshes::PressSample& from, const meshes::PressSample& to) {
+  const auto between = [&](double meshes::PressSample::*way, double meshes::PressSample::*load) {
+    const double moved = to.*way - from.*way;
+    return std::isnan(moved) || moved == 0.0 ? 0.0 : 0.5 * moved * (from.*load + to.*load);
+  };
+  return between(&meshes::PressSample::lateral_displacement,
+                 &meshes::PressSample::lateral_force_x) +
+         between(&meshes::PressSample::twist, &meshes::PressSample::spin_torque);
 }
 
 }  // namespace
@@ -101,6 +116,7 @@ std::vector<StageEntry> stage_entries(const PressProtocol& protocol,
 double work_along(const meshes::PressResponse& response) {
   double work = 0.0;
   std::vector<double> x{0.0}, y{0.0};
+  const meshes::PressSample* before = nullptr;
   const auto end_leg = [&] {
     if (x.back() >= x.front())
       work += area_below(x, y);
@@ -115,15 +131,24 @@ double work_along(const meshes::PressResponse& response) {
       x = {x.back()};
       y = {y.back()};
     }
-    if (here == x.back()) {  // a hold
+    if (before) work += work_along_plane(*before, sample);
+    if (here == x.back()) {  // a hold, or a move along the plane
       y.back() = sample.normal_force;
     } else {
       x.push_back(here);
       y.push_back(sample.normal_force);
     }
+    before = &sample;
   }
   end_leg();
-  return work;
+  const auto moves = [&](double meshes::PressSample::*way) {
+    return std::ranges::any_of(response.samples(), [way](const meshes::PressSample& sample) {
+      return std::abs(sample.*way) > 0.0;
+    });
+  };
+  const bool both =
+      moves(&meshes::PressSample::twist) && moves(&meshes::PressSample::lateral_displacement);
+  return both ? meshes::unknown : work;
 }
 
 }  // namespace fingertip::studies::inline presses

@@ -20,8 +20,10 @@ std::vector<StageEntry> stage_entries(const meshes::PressProtocol& protocol,
                                       const meshes::PressResponse& response);
 
 /// What is put in and not given back on the way from first touch along all samples [J]: the area
-/// below force over indentation, leg by leg by monotone cubics (Fritsch & Carlson 1980). Of a
-/// program that ends where nothing touches, the area of its loop.
+/// below force over indentation, leg by leg by monotone cubics (Fritsch & Carlson 1980), and below
+/// lateral force and torque about the normal over displacement and twist, by straight lines. Of a
+/// program that ends where nothing touches, the area of its loop. Unknown where the plane both
+/// moves aside and turns, for a torque about the centre of pressure does no work at another place.
 double work_along(const meshes::PressResponse& response);
 
 }  // namespace fingertip::studies::inline presses

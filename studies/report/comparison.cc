@@ -123,18 +123,31 @@ Panel force_panel(const std::vector<ComparedCurve>& curves) {
   return panel;
 }
 
-/// The lateral motions that followed presses; without series when none did.
-Panel lateral_panel(const std::vector<ComparedCurve>& curves) {
-  using meshes::PressSample;
-  const ShownUnit &length = shown_units().length, &force = shown_units().force;
-  Panel panel{.x_label = length.label("lateral displacement"),
-              .y_label = force.label("lateral force"),
-              .key = above};
+/// The motions of the plane that followed presses, of all runs together.
+std::vector<PlaneMotion> motions_of(const std::vector<ComparedCurve>& curves) {
+  std::vector<PlaneMotion> motions;
+  for (const ComparedCurve& curve : curves)
+    for (const PlaneMotion& motion : plane_motions(moved_along_plane(curve.response)))
+      if (std::ranges::none_of(motions, [&](const PlaneMotion& known) {
+            return known.way.value == motion.way.value;
+          }))
+        motions.push_back(motion);
+  return motions;
+}
+
+bool makes(SampleRange samples, const PlaneMotion& motion) {
+  return std::ranges::any_of(plane_motions(samples), [&](const PlaneMotion& made) {
+    return made.way.value == motion.way.value;
+  });
+}
+
+Panel motion_panel(const std::vector<ComparedCurve>& curves, const PlaneMotion& motion) {
+  Panel panel{.x_label = motion.way.label(), .y_label = motion.load.label(), .key = above};
   for (const ComparedCurve& compared : curves)
-    if (const auto sliding = compared.response.sliding(); !sliding.empty())
-      panel.series.push_back(curve(compared.label, "", compared.style, sliding,
-                                   in(length, &PressSample::lateral_displacement),
-                                   in(force, &PressSample::lateral_force_x)));
+    if (const auto moved = moved_along_plane(compared.response); makes(moved, motion))
+      panel.series.push_back(curve(compared.label, "", compared.style, moved,
+                                   in(motion.way.unit, motion.way.value),
+                                   in(motion.load.unit, motion.load.value)));
   return panel;
 }
 
@@ -224,22 +237,22 @@ std::string summary_sentence(const Comparison& comparison) {
   return sentences("answer_comparison", words);
 }
 
-/// Lateral forces at displacements that every run has that moved on at full depth.
-Table lateral_table(const std::vector<ComparedCurve>& curves) {
-  const ShownUnit &length = shown_units().length, &force = shown_units().force;
-  Table table{heads({"Lateral displacement\n" + unit_name(length)})};
-  std::vector<const ComparedCurve*> sliding;
+/// Loads at poses that every run has whose plane moved on at one depth.
+Table motion_table(const std::vector<ComparedCurve>& curves, const PlaneMotion& motion) {
+  Table table{heads({std::string(motion.way.title) + "\n" + unit_name(motion.way.unit)})};
+  std::vector<std::pair<const ComparedCurve*, SampleRange>> moved;
   for (const ComparedCurve& curve : curves)
-    if (!curve.response.sliding().empty()) sliding.push_back(&curve);
-  if (sliding.size() < 2) return table;
-  for (const ComparedCurve* curve : sliding) table.header.emplace_back(curve->label);
-  for (const meshes::PressSample& wanted : sliding.front()->response.sliding()) {
-    const double place = wanted.lateral_displacement;
-    std::vector<Cell> row{number(length(place))};
-    for (const ComparedCurve* curve : sliding)
-      for (const meshes::PressSample& sample : curve->response.sliding())
-        if (std::abs(sample.lateral_displacement - place) <= rounding_of_depths * std::abs(place))
-          row.emplace_back(number(force(sample.lateral_force_x)));
+    if (const auto samples = moved_along_plane(curve.response); makes(samples, motion))
+      moved.emplace_back(&curve, samples.subspan(1));
+  if (moved.size() < 2) return table;
+  for (const auto& [curve, samples] : moved) table.header.emplace_back(curve->label);
+  for (const meshes::PressSample& wanted : moved.front().second) {
+    std::vector<Cell> row{number(motion.way.unit(wanted.*motion.way.value))};
+    for (const auto& [curve, samples] : moved)
+      if (const auto found = std::ranges::find_if(
+              samples, [&](const meshes::PressSample& sample) { return wanted.is_beside(sample); });
+          found != samples.end())
+        row.emplace_back(number(motion.load.unit((*found).*motion.load.value)));
     if (row.size() == table.header.size()) table.rows.push_back(std::move(row));
   }
   return table;
@@ -277,9 +290,10 @@ std::string screen_text(const Comparison& comparison, const std::vector<Chapter>
     if (const double l2 = overall(curves[i], curves.front()).l2; !std::isnan(l2))
       text += fmt::format("relative L2 difference of {}: {:.2f} %\n", curves[i].label, 100.0 * l2);
   for (const Chapter& chapter : chapters) text += tables_text(chapter, {"contact"});
-  const Table lateral = lateral_table(curves), following = following_table(comparison);
-  if (!lateral.rows.empty())
-    text += shown_units().force.label("lateral force at full depth") + "\n" + table_text(lateral);
+  for (const PlaneMotion& motion : motions_of(curves))
+    if (const Table table = motion_table(curves, motion); !table.rows.empty())
+      text += motion.load.label(" at full depth") + "\n" + table_text(table);
+  const Table following = following_table(comparison);
   if (!following.rows.empty()) text += "after the first loading\n" + table_text(following);
   for (const ComparisonRemark& remark : comparison.remarks)
     text += (remark.meaningless ? "WARNING: " : "note: ") + remark.text + "\n";
@@ -335,8 +349,14 @@ Page comparison_page(const Comparison& comparison, const ContactComparison& cont
     chapter.figures.push_back(
         {"comparison_difference", 760, 360, 1, {difference_panel(comparison)}});
   chapter.tables["differences"] = difference_table(comparison);
-  if (const Panel lateral = lateral_panel(curves); !lateral.series.empty())
-    chapter.figures.push_back({"comparison_lateral", 760, 420, 1, {lateral}});
+  for (const PlaneMotion& motion : motions_of(curves)) {
+    const bool twist = motion.way.value == &meshes::PressSample::twist;
+    chapter.figures.push_back({twist ? "comparison_twist" : "comparison_lateral",
+                               760,
+                               420,
+                               1,
+                               {motion_panel(curves, motion)}});
+  }
   if (const Panel following = following_panel(comparison); following.series.size() > 1)
     chapter.figures.push_back({"comparison_time", 760, 420, 1, {following}});
   Page page;

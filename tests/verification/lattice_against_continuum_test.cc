@@ -197,3 +197,28 @@ TEST(LatticeAgainstContinuum, PullsAsHardWhenItIsMovedAside) {
     EXPECT_NEAR(found.normal_force / expected.normal_force, 1.0, coarseness);
   }
 }
+
+/// Pressed and then turned, stuck or slipping: the continuum on its meridian.
+TEST(LatticeAgainstContinuum, HoldsATwistAsWell) {
+  const double depth = 2e-3;
+  for (const ContactMode contact : {ContactMode::stick, ContactMode::coulomb}) {
+    ReferenceJob job = continuum_job({}, {}, contact, depth);
+    job.press_to({depth});
+    job.protocol.friction = 0.3;
+    job.protocol.twist = 0.15;
+    job.protocol.lateral_samples = 3;
+    lattice::PressSetup setup = lattice_press({}, {}, contact, depth, 10.0);
+    setup.protocol = job.protocol;
+    setup.protocol.mode = meshes::DriveMode::equilibrium;
+    const auto continuum = press_continuum(job);
+    const auto lattice = lattice::run_static_press(setup).response;
+    ASSERT_EQ(continuum.sliding().size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto &expected = continuum.sliding()[i], &found = lattice.sliding()[i];
+      EXPECT_NEAR(found.twist, expected.twist, 1e-12);
+      // With the third power of the contact's radius.
+      EXPECT_NEAR(found.spin_torque / expected.spin_torque, 1.0, 2.0 * coarseness);
+      EXPECT_NEAR(found.normal_force / expected.normal_force, 1.0, coarseness);
+    }
+  }
+}

@@ -1,11 +1,12 @@
-/// A press that slips partly: the moving lattice under Coulomb friction against figures of the
-/// continuum, which finds equilibria by an active set and shares no code with it.
+/// A press that slips partly: the lattice under Coulomb friction, moving and at rest, against
+/// figures of the continuum, which finds equilibria by an active set and shares no code with it.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
 #include "lattice/press/press.h"
+#include "lattice/press/static_press.h"
 
 using namespace fingertip;
 
@@ -34,22 +35,41 @@ constexpr std::array conditions{Condition{1e-3,
                                             {5e-3 / 3.0, 0.0803908, 0.02733069},
                                             {2e-3, 0.1101015, 0.03653225}}}}};
 
+lattice::PressSetup press_under(const Condition& condition) {
+  lattice::PressSetup setup;
+  setup.lattice.spacing = 0.01 / 12.0;
+  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  setup.protocol.mode = meshes::DriveMode::quasi_static;
+  setup.protocol.contact = meshes::ContactMode::coulomb;
+  setup.protocol.friction = 0.5;
+  setup.protocol.lateral = condition.lateral;
+  setup.protocol.depth = 2e-3;
+  setup.protocol.samples.clear();
+  for (const Figure& figure : condition.figures)
+    setup.protocol.samples.push_back(figure.indentation);
+  return setup;
+}
+
 }  // namespace
+
+TEST(SlidingPress, TheLatticeAtRestSlipsAsTheContinuumDoes) {
+  for (const Condition& condition : conditions) {
+    lattice::PressSetup setup = press_under(condition);
+    setup.protocol.mode = meshes::DriveMode::equilibrium;
+    const lattice::StaticOutcome outcome = lattice::run_static_press(setup);
+    ASSERT_EQ(outcome.response.samples().size(), condition.figures.size());
+    for (std::size_t i = 0; i < condition.figures.size(); ++i) {
+      const meshes::PressSample& sample = outcome.response.samples()[i];
+      const Figure& figure = condition.figures[i];
+      EXPECT_NEAR(sample.normal_force, figure.normal_force, 0.01 * figure.normal_force);
+      EXPECT_NEAR(sample.lateral_force_x, figure.lateral_force, 0.03 * figure.lateral_force);
+    }
+  }
+}
 
 TEST(SlidingPress, TheLatticeSlipsAsTheContinuumDoes) {
   for (const Condition& condition : conditions) {
-    lattice::PressSetup setup;
-    setup.lattice.spacing = 0.01 / 12.0;
-    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
-    setup.protocol.mode = meshes::DriveMode::quasi_static;
-    setup.protocol.contact = meshes::ContactMode::coulomb;
-    setup.protocol.friction = 0.5;
-    setup.protocol.lateral = condition.lateral;
-    setup.protocol.depth = 2e-3;
-    setup.protocol.samples.clear();
-    for (const Figure& figure : condition.figures) {
-      setup.protocol.samples.push_back(figure.indentation);
-    }
+    const lattice::PressSetup setup = press_under(condition);
     const lattice::PressOutcome outcome = lattice::run_press(setup);
     const lattice::TraceRow& last = outcome.trace.back();
     EXPECT_GT(last.sliding, last.anchored / 4);  // partial slip

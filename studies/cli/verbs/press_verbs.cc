@@ -47,14 +47,16 @@ std::vector<meshes::PressSample> wanted_samples(const meshes::PressResponse& res
   return wanted;
 }
 
-/// The curve at the wanted depths, and the lateral motion that followed, if one did.
+/// The curve at the wanted depths, and the motion of the plane that followed, if one did.
 void print_response(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
   fmt::print("{}", report::table_text(report::sample_table(wanted_samples(response, protocol),
-                                                           report::indentation())));
-  if (response.sliding().empty()) return;
-  fmt::print(
-      "then along the plane at {}:\n{}", shown_units().length.text(response.depth()),
-      report::table_text(report::sample_table(response.sliding(), report::lateral_displacement())));
+                                                           {report::indentation()})));
+  const auto moved = report::moved_along_plane(response);
+  if (moved.empty()) return;
+  std::vector<report::SampleColumn> over;
+  for (const report::PlaneMotion& motion : report::plane_motions(moved)) over.push_back(motion.way);
+  fmt::print("then along the plane at {}:\n{}", shown_units().length.text(response.depth()),
+             report::table_text(report::sample_table(moved.subspan(1), over)));
 }
 
 /// "continuum, finite strain (law A), stick contact, static"

@@ -12,7 +12,9 @@ std::string Key::description() const {
     case Kind::terms:
       return number_first ? "list of pairs of a number and a quantity"
                           : "list of pairs of a quantity and a number";
-    case Kind::stages: return "list of pairs [indentation, speed] or [hold, duration]";
+    case Kind::stages:
+      return "list of stages: [indentation, speed], [hold, duration], [lateral, displacement, "
+             "speed] or [twist, angle, speed]";
     case Kind::numbers: return "list of 3 numbers";
     case Kind::number_pair: return "list of 2 numbers";
     case Kind::integer: return "integer";

@@ -54,7 +54,7 @@ constexpr auto names_of(Kind) {
 /// A value read from text, in SI.
 struct Value {
   double number = 0.0;          ///< quantity, number, integer, boolean (0 or 1)
-  std::vector<double> numbers;  ///< quantities, terms, numbers; three of a stage as in PressStage;
+  std::vector<double> numbers;  ///< quantities, terms, numbers; six of a stage as in PressStage;
                                 ///< three of a field: 1 for "fit", the quantity, its deviation
   std::string word;  ///< choice, source, text, file, also of a field; for a quantity the word given
                      ///< instead of one

@@ -74,6 +74,12 @@ std::string literal_of(const T& member) {
            ']';
   } else if constexpr (std::is_same_v<T, meshes::PressStage>) {
     if (!member.moves()) return "[\"hold\", " + quantity_literal(member.hold, "s", "s") + ']';
+    if (member.move == meshes::StageMove::lateral)
+      return "[\"lateral\", " + quantity_literal(member.lateral, "m", "cm") + ", " +
+             quantity_literal(member.speed, "m/s", "cm/s") + ']';
+    if (member.move == meshes::StageMove::twist)
+      return "[\"twist\", " + quantity_literal(member.twist, "rad", "deg") + ", " +
+             quantity_literal(member.speed, "rad/s", "deg/s") + ']';
     return '[' + quantity_literal(member.indentation, "m", "cm") + ", " +
            quantity_literal(member.speed, "m/s", "cm/s") + ']';
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
@@ -109,8 +115,11 @@ void store(const Value& value, T& member) {
       member.push_back({value.numbers[i], value.numbers[i + 1]});
   } else if constexpr (std::is_same_v<T, std::vector<meshes::PressStage>>) {
     member.clear();
-    for (std::size_t i = 0; i + 2 < value.numbers.size(); i += 3)
-      member.push_back({value.numbers[i], value.numbers[i + 1], value.numbers[i + 2]});
+    for (std::size_t i = 0; i + 5 < value.numbers.size(); i += 6) {
+      const double* stage = &value.numbers[i];
+      member.push_back(
+          {stage[0], stage[1], stage[2], meshes::StageMove(stage[3]), stage[4], stage[5]});
+    }
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
     member = value.word == "none" ? "" : value.word;
   } else if constexpr (std::is_same_v<T, std::string>) {

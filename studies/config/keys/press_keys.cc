@@ -59,7 +59,9 @@ std::vector<Key> press_keys() {
   const Key program = with_rule(
       plain("press", "program", any,
             "stages in time, instead of depth and speed: e.g. [[\"0.3 cm\", \"1 cm/s\"], "
-            "[\"hold\", \"2 s\"], [\"0 cm\", \"1 cm/s\"]]; [] means one press",
+            "[\"hold\", \"2 s\"], [\"0 cm\", \"1 cm/s\"]]; static presses and reference move along "
+            "the plane, too: [\"lateral\", \"1 mm\", \"1 cm/s\"], [\"twist\", \"5 deg\", "
+            "\"10 deg/s\"]; [] means one press",
             protocol(&PressProtocol::program)),
       "begins with a move that presses; indentations from -clearance to less than the thickness",
       {"press.clearance", "geometry.tip_radius", "geometry.rod_radius"});
@@ -72,9 +74,7 @@ std::vector<Key> press_keys() {
       choice("press", "contact",
              {{"stick", "infinite friction: anchored where it first touched"},
               {"frictionless", "only the normal gap is held, compressive only"},
-              {"coulomb",
-               "sticks until the shear exceeds friction times the push, then slides "
-               "(moving lattices and reference)"}},
+              {"coulomb", "sticks until the shear exceeds friction times the push, then slides"}},
              "how tip and plane interact", protocol(&PressProtocol::contact)),
       only_with("press.contact", {"coulomb"},
                 plain("press", "friction", positive, "Coulomb's coefficient of friction",
@@ -99,11 +99,14 @@ std::vector<Key> press_keys() {
                   {"after", "first down to full depth, then along the plane at that depth"}},
                  "when the plane moves by press.lateral", protocol(&PressProtocol::lateral_path)),
           "after: static presses and reference", {"press.mode"}),
-      only_with(
-          "press.lateral_path", {"after"},
-          plain("press", "lateral_samples", {1, 1000, true},
-                "outputs of the lateral motion at full depth, in equal steps to press.lateral",
-                protocol(&PressProtocol::lateral_samples))),
+      with_rule(quantity("press", "twist", "deg", "rad", any,
+                         "how far the plane turns about its normal at full depth, together with a "
+                         "lateral motion that follows (static presses and reference)",
+                         protocol(&PressProtocol::twist)),
+                "between -90 and 90 degrees; static presses and reference", {"press.mode"}),
+      plain("press", "lateral_samples", {1, 1000, true},
+            "outputs of a motion along the plane at full depth or of a twist, in equal steps",
+            protocol(&PressProtocol::lateral_samples)),
       with_rule(quantity("press", "depth", "cm", "m", positive, "final indentation",
                          protocol(&PressProtocol::depth)),
                 "less than tip_radius - rod_radius, of a profile than the pole is above the bond; "

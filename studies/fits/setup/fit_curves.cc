@@ -105,11 +105,12 @@ LatticeUse lattice_of_fit(const LoadedConfig& loaded) {
 
 FitCurve& add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
   const lattice::PressSetup press = press_setup(own, lattice_of_fit(own));
-  if (press.protocol.slides_after())
+  if (press.protocol.moves_after())
     throw own.locate(
-        {{"press.lateral_path", "after",
+        {{press.protocol.has_twist() ? "press.twist" : "press.lateral_path",
+          press.protocol.has_twist() ? meshes::to_text(press.protocol.twist) + " rad" : "after",
           "a fit takes forces against indentation, and a motion at full depth has none",
-          "choose diagonal, or leave press.lateral at 0"}});
+          "choose press.lateral_path = diagonal, or leave press.lateral and press.twist at 0"}});
   if (!press.protocol.program.empty())
     throw own.locate(
         {{"press.program", "given", "a fit takes forces against the indentation of one loading",

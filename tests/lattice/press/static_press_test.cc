@@ -5,9 +5,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <vector>
 
 #include "lattice/statics/cut_lattice.h"
+#include "meshes/press/limit_surface.h"
 #include "tests/lattice/presses.h"
 
 using namespace fingertip;
@@ -252,6 +254,125 @@ TEST(StaticPress, WithoutFrictionAPlaneMovesOnUnnoticed) {
   }
 }
 
+/// Beyond all friction a point sticks, without any it slides free; in between the plane drags the
+/// tip along with friction times push once all of it slides, and holds a turn with what its own
+/// pressure makes of that.
+TEST(StaticPress, SlidesUnderFrictionTimesPush) {
+  for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
+    PressSetup setup = press_at(6, {0.1}, ContactMode::coulomb, ModelKind::network, kinematics);
+    const auto with = [&](ContactMode contact, double friction) {
+      setup.protocol.contact = contact;
+      setup.protocol.friction = friction;
+      return last_sample(setup);
+    };
+    const double stuck = with(ContactMode::stick, 0.0).normal_force,
+                 free = with(ContactMode::frictionless, 0.0).normal_force;
+    // Where a point first touches is found from another trial.
+    EXPECT_NEAR(with(ContactMode::coulomb, 1e4).normal_force, stuck, 5e-3 * stuck);
+    EXPECT_NEAR(with(ContactMode::coulomb, 1e-9).normal_force, free, 1e-7 * free);
+    const double between = with(ContactMode::coulomb, 0.3).normal_force;
+    EXPECT_GT(between, free);
+    EXPECT_LT(between, stuck);
+
+    setup.protocol.lateral = -2e-3;
+    setup.protocol.lateral_path = meshes::LateralPath::after;
+    setup.protocol.lateral_samples = 4;
+    const StaticOutcome aside = lattice::run_static_press(setup);
+    const PressSample& dragged = aside.response.samples().back();
+    EXPECT_NEAR(dragged.lateral_force_x, -0.3 * dragged.normal_force, 1e-7 * dragged.normal_force);
+    setup.protocol.lateral = 0.0;
+    setup.protocol.twist = 0.5;
+    const StaticOutcome turned = lattice::run_static_press(setup);
+    const PressSample& end = turned.response.samples().back();
+    double lever = 0.0;
+    for (const auto& point : meshes::samples_of(turned.contact).back()) {
+      EXPECT_EQ(point.state, meshes::ContactState::slip);
+      lever += point.normal_traction * point.area * point.place.head<2>().norm();
+    }
+    EXPECT_NEAR(end.spin_torque, 0.3 * lever, 0.02 * end.spin_torque);  // of the smooth field
+    EXPECT_NEAR(end.torque_z, -end.spin_torque, 1e-6 * end.spin_torque);
+    EXPECT_NEAR(end.lateral_force_x, 0.0, 1e-6 * end.normal_force);
+  }
+}
+
+/// Turned there and back the loop closes and wastes work; the way there is the way back, mirrored.
+TEST(StaticPress, ATwistThereAndBackIsALoop) {
+  PressSetup setup = press_at(8, {0.15}, ContactMode::coulomb);
+  setup.protocol.friction = 0.3;
+  setup.protocol.lateral_samples = 2;
+  setup.protocol.program = {{1.5e-3, 0.01, 0.0}};
+  for (const double angle : {0.08, -0.08, 0.08, -0.08})
+    setup.protocol.program.push_back(
+        {.indentation = 1.5e-3, .speed = 1.0, .move = meshes::StageMove::twist, .twist = angle});
+  const auto outcome = lattice::run_static_press(setup);
+  const auto rows = outcome.response.following();  // at half of each move and at its end
+  ASSERT_EQ(rows.size(), 8U);
+  EXPECT_EQ(rows[2].twist, 0.0);
+  EXPECT_EQ(rows[2].stage, 3.0);
+  const double most = rows[5].spin_torque;
+  EXPECT_LT(rows[1].spin_torque, 1.8 * rows[0].spin_torque) << "it slips";
+  EXPECT_NEAR(rows[3].spin_torque, -most, 0.02 * most);
+  EXPECT_NEAR(rows[7].spin_torque, rows[3].spin_torque, 0.01 * most);
+  EXPECT_NEAR(rows[6].spin_torque, -rows[4].spin_torque, 0.02 * most);
+  EXPECT_GT(rows[4].spin_torque, 0.05 * most) << "through zero turned back from below";
+}
+
+/// Dragged and turned about a place beside it until all of it slides, it holds the force and the
+/// moment that its own pressure makes of that place.
+TEST(StaticPress, DraggedAndTurnedItIsOnItsLimitSurface) {
+  PressSetup setup = press_at(8, {0.15}, ContactMode::coulomb);
+  setup.protocol.friction = 0.1;
+  setup.protocol.lateral_path = meshes::LateralPath::after;
+  setup.protocol.lateral_samples = 1;
+  for (const double away : {2e-3, 4e-3, 8e-3}) {
+    setup.protocol.lateral = std::min(1.5 * away, setup.geometry.tip_radius);
+    setup.protocol.twist = setup.protocol.lateral / away;
+    const StaticOutcome outcome = lattice::run_static_press(setup);
+    const PressSample& end = outcome.response.samples().back();
+    const auto field = meshes::samples_of(outcome.contact).back();
+    const meshes::LimitPoint held = meshes::limit_point(field, away, 0.5 * std::numbers::pi);
+    EXPECT_NEAR(end.lateral_force_x, 0.1 * held.force, 0.03 * 0.1 * held.force) << away;
+    EXPECT_NEAR(end.spin_torque, 0.1 * held.moment, 0.03 * 0.1 * held.moment) << away;
+  }
+}
+
+/// Without friction the place is all that counts: a cylinder along y, turned by a right angle, is
+/// one along x.
+TEST(StaticPress, TheObstacleTurnsWithThePlane) {
+  for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
+    PressSetup setup =
+        press_at(5, {0.1}, ContactMode::frictionless, ModelKind::network, kinematics);
+    setup.protocol.obstacle = {
+        .shape = meshes::ObstacleShape::cylinder, .radius = 4e-3, .along = meshes::ObstacleAxis::x};
+    const auto body = body_in_sectors(setup, 1);
+    const PressSample along_x = lattice::run_static_press(setup, body).response.samples().back();
+    setup.protocol.obstacle.along = meshes::ObstacleAxis::y;
+    setup.protocol.twist = 0.5 * std::numbers::pi;
+    setup.protocol.lateral_samples = 3;
+    const PressSample turned = lattice::run_static_press(setup, body).response.samples().back();
+    expect_same(turned, along_x, 1e-6, setup.geometry.rod_length);
+  }
+}
+
+/// A plane that moves aside as it turns turns about another axis: about one far away it moves.
+TEST(StaticPress, SticksToAPlaneThatTurnsAboutAnyAxis) {
+  PressSetup setup = press_at(6, {0.1}, ContactMode::stick, ModelKind::network, Kinematics::finite);
+  setup.protocol.lateral_path = meshes::LateralPath::after;
+  setup.protocol.lateral_samples = 2;
+  setup.protocol.twist = 0.02;
+  const PressSample turned = last_sample(setup);
+  setup.protocol.lateral = 2e-4;
+  const PressSample both = last_sample(setup);
+  setup.protocol.twist = 0.0;
+  const PressSample moved = last_sample(setup);
+  EXPECT_GT(turned.spin_torque, 0.0);
+  EXPECT_NEAR(both.spin_torque, turned.spin_torque, 0.02 * turned.spin_torque);
+  EXPECT_NEAR(both.lateral_force_x, moved.lateral_force_x, 0.02 * moved.lateral_force_x);
+  setup.protocol.lateral = 0.0;
+  setup.protocol.twist = -0.02;
+  EXPECT_NEAR(last_sample(setup).spin_torque, -turned.spin_torque, 1e-4 * turned.spin_torque);
+}
+
 /// Whatever follows, the way down is that of the straight press to the last bit.
 TEST(StaticPress, WhatFollowsThePressDoesNotChangeIt) {
   for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
@@ -351,7 +472,7 @@ TEST(StaticPress, RefusesBadInput) {
     EXPECT_THROW(lattice::run_static_press(setup), meshes::InvalidInput);
   };
   refused([](PressSetup& s) { s.lattice.spacing = 0.003; });
-  refused([](PressSetup& s) { s.protocol.contact = ContactMode::coulomb; });
+  refused([](PressSetup& s) { s.protocol.twist = 2.0; });
   refused([](PressSetup& s) { s.protocol.tilt = 1.0; });
   refused([](PressSetup& s) { s.protocol.samples = {0.002, 0.001}; });
   refused([](PressSetup& s) { s.rubber.youngs_modulus = -1.0; });

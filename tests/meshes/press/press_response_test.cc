@@ -95,6 +95,22 @@ TEST_F(PressResponseFile, ALateralMotionFollowsThePress) {
   EXPECT_TRUE(PressResponse().pressing().empty());
 }
 
+TEST_F(PressResponseFile, ATwistFollowsThePress) {
+  PressResponse written;
+  for (const double twist : {0.0, -0.1, -0.2})
+    written.append({.indentation = 2e-3,
+                    .normal_force = 9.0,
+                    .lateral_displacement = 0.0,
+                    .twist = twist,
+                    .spin_torque = 3.0 * twist});
+  written.write_csv(folder_ / "response.csv");
+  const PressResponse read = PressResponse::read_csv(folder_ / "response.csv");
+  ASSERT_EQ(read.sliding().size(), 2u);
+  EXPECT_EQ(read.sliding()[1].twist, -0.2);
+  EXPECT_EQ(read.sliding()[1].spin_torque, 3.0 * -0.2);
+  EXPECT_TRUE(std::isnan(read.sliding()[1].lateral_displacement));
+}
+
 TEST_F(PressResponseFile, StagesOfAProgramFollowTheFirstLoading) {
   PressResponse written;
   const double rows[][4] = {{1e-3, 1.0, 0.1, 1}, {2e-3, 3.0, 0.2, 1}, {2e-3, 2.5, 0.3, 2},
@@ -137,6 +153,8 @@ TEST_F(PressResponseFile, RefusesDamagedFilesWithFileAndLine) {
   EXPECT_TRUE(says(refusal(titles + ",1\n"), "response.csv:2"));
   EXPECT_TRUE(says(refusal(titles + "0.2,1\n0.1,2\n"), "increase"));
   EXPECT_TRUE(says(refusal(titles + "0.2,1\n0.2,2\n"), "increase"));
+  EXPECT_TRUE(says(refusal("indentation [m],normal_force [N],twist [rad]\n0.2,1,0.1\n0.2,1,0.1\n"),
+                   "twists at full depth"));
   const std::string lateral =
       "indentation [m],normal_force [N],lateral_displacement [m]\n0.2,1,0.1\n";
   EXPECT_TRUE(says(refusal(lateral + "0.2,2,0.1\n"), "response.csv:3"));

@@ -80,14 +80,13 @@ TEST(BadInput, OfALatticeAtRestIsRefusedBeforeAnythingIsComputed) {
 TEST(BadInput, WhatTheLatticeCannotDoIsRefusedToItAndGoesToTheContinuum) {
   const Workplace folder;
   folder.put("tilted.toml",
-             "[press]\ncontact = \"coulomb\"\ntilt = \"5 deg\"\n[lattice]\nmodel = "
+             "[press]\ntwist = \"5 deg\"\ntilt = \"5 deg\"\n[lattice]\nmodel = "
              "\"published\"\n");
   for (const char* verb : {"press", "validate"})
     expect_refused(folder, std::string(verb) + " --config tilted.toml --out run", {},
                    {"tilted.toml:3: press.tilt = 5 deg: ", "press.mode = static"});
-  expect_refused(
-      folder, "press --config tilted.toml --out run", {"press.mode=static"},
-      {"tilted.toml:2: press.contact = coulomb: ", "in equilibrium", "press.mode = quasi-static"});
+  expect_refused(folder, "press --config tilted.toml --out run", {},
+                 {"tilted.toml:2: press.twist = 5 deg: ", "a straight way", "press.mode = static"});
   EXPECT_TRUE(says(folder.run("check tilted.toml").out, "tilted.toml:3: press.tilt = 5 deg"));
 }
 

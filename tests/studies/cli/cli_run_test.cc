@@ -189,6 +189,35 @@ TEST(Run, TheLimitSurfaceOfAPress) {
   EXPECT_TRUE(says(folder.run("limit-surface run slides/nothing", {}, 2).err, "no such folder"));
 }
 
+// Pressed and then turned under friction, there and back, beside the continuum: on the screen, in
+// the folder, on its page and beside another run.
+TEST(Run, ATwistFollowsTheStaticPressUnderFriction) {
+  const Workplace folder;
+  const Words settings = {"press.mode=static",
+                          "lattice.spacing=tip_radius/4",
+                          "press.contact=coulomb",
+                          "press.lateral_samples=1",
+                          R"(press.samples=["0.1 cm"])",
+                          R"(press.program=[["1 mm", "1 cm/s"], ["twist", "5 deg", "1 deg/s"], )"
+                          R"(["twist", "-5 deg", "1 deg/s"]])"};
+  const std::string screen = folder.run("press --out one", settings).out;
+  EXPECT_TRUE(says(screen, {"then along the plane at 1 mm", "Torque about the normal",
+                            "twist to -5 deg", "force error from the continuum"}));
+  const PressResponse response = folder.response("one");
+  ASSERT_EQ(response.following().size(), 2U);
+  EXPECT_GT(response.following()[0].spin_torque, 0.0);
+  EXPECT_LT(response.following()[1].spin_torque, 0.0);
+  EXPECT_GT(response.following()[1].torque_error, 0.0);
+  EXPECT_GT(folder.json("one/summary.json").at("loop_area").get<double>(), 0.0);
+  folder.run("report one");
+  const std::string title = "Torque about the normal against twist";
+  EXPECT_TRUE(says(folder.text("one/report.html"), title));
+  folder.run("reference --out two", settings);
+  const std::string both = folder.run("compare two one").out;
+  EXPECT_TRUE(says(both, "torque about the normal at full depth"));
+  folder.expect_refused("press --out three", {"press.twist=5 deg"}, {"press.twist = 5 deg"});
+}
+
 // Pressed first and moved then: on the screen, in the folder, on its page and beside another run.
 TEST(Run, ALateralMotionFollowsTheStaticPress) {
   const Workplace folder;

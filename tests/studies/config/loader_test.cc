@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "studies/config/documents.h"
 #include "studies/config/keys/key_table.h"
@@ -314,26 +315,52 @@ TEST(Loader, AProgramDecidesDepthSpeedAndSamples) {
   EXPECT_NO_THROW(config_of({program, "press.depth=2 mm", "press.speed=30 mm/s"}));
 }
 
+TEST(Loader, AProgramMovesAlongThePlaneAndTwists) {
+  const std::string program =
+      R"(press.program=[["3 mm", "1 cm/s"], ["lateral", "-1 mm", "2 mm/s"], )"
+      R"(["twist", "90 deg", "10 deg/s"], ["hold", "1 s"], ["0 mm", "1 cm/s"]])";
+  const LoadedConfig loaded = config_of({program});
+  const auto& stages = loaded.config.press.protocol.program;
+  using fingertip::meshes::PressStage;
+  using fingertip::meshes::StageMove;
+  ASSERT_EQ(stages.size(), 5U);
+  const double right = 0.5 * std::numbers::pi;
+  EXPECT_EQ(stages[1], (PressStage{3e-3, 2e-3, 0.0, StageMove::lateral, -1e-3, 0.0}));
+  EXPECT_NEAR(stages[2].twist, right, 1e-12);
+  EXPECT_NEAR(stages[2].speed, right / 9.0, 1e-12);
+  EXPECT_EQ(stages[3], (PressStage{3e-3, 0.0, 1.0, StageMove::press, -1e-3, stages[2].twist}));
+  EXPECT_EQ(stages[4], (PressStage{0.0, 1e-2, 0.0, StageMove::press, -1e-3, stages[2].twist}));
+  const TemporaryFolder folder;
+  write_text(folder / "again.toml", parameters_toml(loaded, "head"));
+  EXPECT_EQ(config_in(folder / "again.toml").config.press.protocol.program, stages);
+}
+
 TEST(Loader, RefusesProgramsWithTheNumberOfTheStage) {
   const auto refusal = [](const std::vector<std::string>& sets) {
     return config_refusal([&] { config_of(sets); });
   };
   const std::string start = R"(press.program=[["0.2 cm", "1 cm/s"])";
   for (const auto& [stages, words] : {
-           std::pair{"press.program=3", "must be a list of pairs"},
-           {R"(press.program=["0.2 cm", "1 cm/s"])", "stage 1: must be a pair of texts"},
+           std::pair{"press.program=3", "must be a list of stages"},
+           {R"(press.program=["0.2 cm", "1 cm/s"])", "stage 1: must be a list of texts"},
            {R"(press.program=[["hold", "1 s"]])", "stage 1: a program begins with a move"},
            {R"(press.program=[["0 cm", "1 cm/s"]])", "stage 1: the first stage must press"},
        })
     EXPECT_TRUE(says(refusal({stages}), words));
   for (const auto& [stage, words] :
-       {std::pair{R"(["hold"])", "stage 2: must be a pair of texts"},
+       {std::pair{R"(["hold"])", "stage 2: must be a list of texts"},
         {R"(["hold", "1 Hz"])", "stage 2: "},
         {R"(["hold", "0 s"])", "stage 2: a hold must take"},
         {R"(["0.1 cm", "1 cm"])", "stage 2: "},
         {R"(["0.1 cm", "-1 cm/s"])", "stage 2: the speed of a move must be positive"},
-        {R"(["0.1 cm", 1])", "stage 2: must be a pair of texts"},
+        {R"(["0.1 cm", 1])", "stage 2: must be a list of texts"},
         {R"(["0.2 cm", "1 cm/s"])", "stage 2: the move ends where it begins"},
+        {R"(["twist", "5 deg"])", "stage 2: must be a list of texts"},
+        {R"(["twist", "1 mm", "1 cm/s"])", "stage 2: "},
+        {R"(["twist", "5 deg", "1 Hz"])", "stage 2: "},
+        {R"(["twist", "100 deg", "1 deg/s"])", "stage 2: a twist lies between"},
+        {R"(["lateral", "1 mm", "0 cm/s"])", "stage 2: the speed of a move must be positive"},
+        {R"(["lateral", "0 mm", "1 cm/s"])", "stage 2: the move ends where it begins"},
         {R"(["-1 cm", "1 cm/s"])", "stage 2: the indentation must lie between minus the clearance"},
         {R"(["5 cm", "1 cm/s"])", "stage 2: the indentation must lie between"}}) {
     const std::string text = refusal({start + ", " + stage + "]"});
@@ -345,5 +372,5 @@ TEST(Loader, RefusesProgramsWithTheNumberOfTheStage) {
     EXPECT_TRUE(says(text, {std::string("--set ") + other, "press.program"}));
   }
   EXPECT_TRUE(says(refusal({start + "]", "press.lateral=1 mm", "press.lateral_path=after"}),
-                   "no lateral motion follows"));
+                   "no lateral motion and no twist follow"));
 }

@@ -228,8 +228,8 @@ const Sets no_continuum = {"reference."}, no_fit = {"calibration."}, no_grasp = 
            no_modes = {"lattice.modes"}, no_rod = {"rod.", "hardware."},
            no_time = {"run.",          "controller.",   "press.speed", "press.clearance",
                       "press.gravity", "press.duration"};
-/// A lattice that moves does so diagonally; one at rest knows no coefficient of friction.
-const Sets diagonal = {"press.lateral_path", "press.lateral_samples"},
+/// A lattice that moves does so diagonally.
+const Sets diagonal = {"press.lateral_path", "press.lateral_samples", "press.twist"},
            no_friction = {"press.friction"};
 /// Refused where a lattice in equilibrium takes part.
 const Sets relaxation = {"rubber.relaxation", "rubber.relaxation_bulk"};
@@ -251,8 +251,8 @@ const World worlds[] = {
     {"static press",
      {"press.mode=static", "press.lateral=1 mm"},
      press,
-     nowhere + no_continuum + no_fit + no_grasp + no_modes + no_rod + no_time + no_friction +
-         relaxation + Sets{"rubber.density", "rubber.retardation_time"}},
+     nowhere + no_continuum + no_fit + no_grasp + no_modes + no_rod + no_time + relaxation +
+         Sets{"press.lateral_samples"} + Sets{"rubber.density", "rubber.retardation_time"}},
     {"lattice's modes",
      {"press.mode=static", "lattice.spacing=tip_radius/12"},
      lattice_modes,
@@ -269,7 +269,7 @@ const World worlds[] = {
     {"continuum",
      {"press.lateral=1 mm"},
      continuum,
-     nowhere + no_fit + no_grasp + no_rod + no_time +
+     nowhere + Sets{"press.lateral_samples"} + no_fit + no_grasp + no_rod + no_time +
          // Aside, so that it is no meridian.
          split(
              "lattice. press.mode rubber.density rubber.retardation_time reference.field_sectors")},
@@ -308,8 +308,8 @@ const World worlds[] = {
     {"fit of the damping",
      {"calibration.problem=damping", "calibration.points=2", "lattice.spacing=tip_radius/6"},
      calibration,
-     nowhere + no_grasp + no_modes + no_rod + no_friction + diagonal + moduli_fit + follow_up +
-         beside + own_depths + controllers + relaxation +
+     nowhere + no_grasp + no_modes + no_rod + diagonal + moduli_fit + follow_up + beside +
+         own_depths + controllers + relaxation +
          // Presses come from far enough; tau alone is free.
          split("press.clearance calibration.data calibration.forward calibration.poisson_range "
                "calibration.parameters calibration.profile")},

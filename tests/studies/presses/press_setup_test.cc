@@ -316,8 +316,10 @@ TEST(Checks, WhatAPressCannotDoIsRefusedToTheValidationAlone) {
   const std::string coulomb = "press.contact=coulomb";
   EXPECT_EQ(check_refusal(check_validation, {coulomb}), "");
   EXPECT_EQ(press_refusal({coulomb, "lattice.model=published"}), "");
-  EXPECT_TRUE(says(press_refusal({coulomb, "press.mode=static"}), coulomb));
-  EXPECT_EQ(check_refusal(check_all, {coulomb, "press.mode=static"}), "");
+  EXPECT_EQ(press_refusal({coulomb, "press.mode=static"}), "");
+  EXPECT_EQ(check_refusal(check_all, {"press.twist=5 deg"}), "");
+  EXPECT_TRUE(
+      check_refusal(check_validation, {"press.twist=5 deg"}).starts_with("--set press.twist"));
   EXPECT_EQ(check_refusal(check_validation, {}), "");
   EXPECT_EQ(check_refusal(check_validation, {"reference.mode=transient"}), "");
   EXPECT_NE(check_refusal(check_validation, {"reference.mode=modes"}), "");
@@ -356,7 +358,15 @@ TEST(Checks, WhatALatticeCanDoAtRestOrMoving) {
   EXPECT_EQ(check_refusal(check_all, {after, lateral}), "") << "the continuum goes that way";
   EXPECT_EQ(press_refusal({"run.integrator=explicit-euler", "lattice.model=published"}), "");
   EXPECT_TRUE(says(press_refusal({"run.integrator=explicit-euler"}), "symplectic-euler"));
-  EXPECT_NE(press_refusal({"press.contact=coulomb", "press.mode=static"}), "");
+  // A twist under stick with the published lattice, too.
+  for (const char* model : {"lattice.model=published", "lattice.model=hookean"}) {
+    EXPECT_TRUE(says(press_refusal({"press.twist=5 deg", model}), "press.twist"));
+    EXPECT_EQ(press_refusal({"press.twist=5 deg", model, "press.mode=static"}), "");
+  }
+  const std::string turning =
+      R"(press.program=[["2 mm", "1 cm/s"], ["twist", "5 deg", "10 deg/s"]])";
+  EXPECT_TRUE(says(press_refusal({turning}), "press.program"));
+  EXPECT_EQ(press_refusal({turning, "press.mode=static"}), "");
   // What concerns the lattice alone keeps no other verb from its work.
   EXPECT_EQ(check_refusal(check_all, {"lattice.model=network"}), "");
   EXPECT_EQ(check_refusal(check_all, {"lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]"}), "");

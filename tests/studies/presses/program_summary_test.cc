@@ -48,6 +48,47 @@ TEST(WorkAlong, OfFewSamplesIsThatOfStraightLines) {
   EXPECT_DOUBLE_EQ(studies::work_along(back), 0.5e-3);
 }
 
+/// Loops along the plane and in twist, at one indentation.
+TEST(WorkAlong, CountsWhatThePlaneDoesAlongItself) {
+  const auto work = [](double PressSample::*way, double PressSample::*load, double end,
+                       bool also_aside) {
+    PressResponse response({sample(1e-3, 2.0)});
+    for (const auto& [place, held] : {std::pair{0.0, 3.0}, {end, 3.0}, {end, -3.0}, {0.0, -3.0}}) {
+      PressSample next = sample(1e-3, 2.0, 2.0);
+      if (also_aside) next.lateral_displacement = 1e-4;
+      next.*way = place;
+      next.*load = held;
+      response.append(next);
+    }
+    return studies::work_along(response);
+  };
+  EXPECT_NEAR(work(&PressSample::lateral_displacement, &PressSample::lateral_force_x, 1e-3, false),
+              1e-3 + 6e-3, 1e-12);
+  EXPECT_NEAR(work(&PressSample::twist, &PressSample::spin_torque, -0.1, false), 1e-3 - 0.6, 1e-12);
+  EXPECT_TRUE(std::isnan(work(&PressSample::twist, &PressSample::spin_torque, 0.1, true)));
+}
+
+TEST(StageEntries, TellMotionsAlongThePlane) {
+  meshes::PressProtocol protocol;
+  using meshes::StageMove;
+  protocol.program = {
+      {1e-3, 0.01},
+      {.indentation = 1e-3, .speed = 1e-3, .move = StageMove::lateral, .lateral = 2e-4},
+      {.indentation = 1e-3, .speed = 0.1, .move = StageMove::twist, .lateral = 2e-4, .twist = 0.1}};
+  protocol.depth = 1e-3;
+  const auto entries = studies::stage_entries(
+      protocol, PressResponse({sample(1e-3, 4.0), sample(1e-3, 3.0, 2.0), sample(1e-3, 2.0, 3.0)}));
+  ASSERT_EQ(entries.size(), 3U);
+  EXPECT_EQ(entries[0].kind, "move");
+  EXPECT_EQ(entries[1].kind, "lateral");
+  EXPECT_EQ(entries[1].lateral, 2e-4);
+  EXPECT_EQ(entries[2].kind, "twist");
+  EXPECT_EQ(entries[2].twist, 0.1);
+  EXPECT_TRUE(std::isnan(entries[2].lateral));
+  EXPECT_EQ(entries[2].begin_force, 3.0);
+  EXPECT_EQ(entries[2].end_force, 2.0);
+}
+
 TEST(WorkAlong, TurnsAreFoundWithoutStages) {
   const PressResponse staged = loop(0.6);
   PressResponse plain;

@@ -38,6 +38,14 @@ std::vector<Panel> time_panels(const meshes::PressResponse& response, const Pres
 
 }  // namespace
 
+/// A move's speed, or what is done at an indentation.
+std::string way_of(const StageEntry& stage) {
+  if (stage.kind == "lateral") return "aside to " + length(stage.lateral);
+  if (stage.kind == "twist")
+    return "twist to " + fmt::format("{:.4g} deg", degree_per_radian * stage.twist);
+  return stage.holds() ? "hold" : number(shown_units().speed(stage.speed));
+}
+
 Table stage_table(const std::vector<StageEntry>& stages) {
   const ShownUnits& units = shown_units();
   Table table{
@@ -53,8 +61,7 @@ Table stage_table(const std::vector<StageEntry>& stages) {
   };
   for (const StageEntry& stage : stages)
     table.rows.push_back({std::to_string(table.rows.size() + 1),
-                          fmt::format("{:.4g}", units.length(stage.indentation)),
-                          stage.holds() ? "hold" : number(units.speed(stage.speed)),
+                          fmt::format("{:.4g}", units.length(stage.indentation)), way_of(stage),
                           in_seconds(stage.begin), in_seconds(stage.end), force(stage.begin_force),
                           force(stage.end_force), percent_magnitude(stage.relaxation)});
   return table;

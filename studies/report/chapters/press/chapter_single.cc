@@ -35,11 +35,8 @@ void begin_at_zero(Panel& panel) {
 }
 
 Panel curve_panel(SampleRange samples, const SampleColumn& over, const SampleColumn& column) {
-  std::string x_label = over.unit.label(over.title), y_label = column.unit.label(column.title);
-  for (std::string* label : {&x_label, &y_label})
-    label->front() = char(std::tolower(label->front()));
-  Panel panel{.x_label = x_label,
-              .y_label = y_label,
+  Panel panel{.x_label = over.label(),
+              .y_label = column.label(),
               .series = {curve("", "press", samples.size() > max_rows ? single.as_line() : single,
                                samples, in(over.unit, over.value), in(column.unit, column.value))},
               .key = ""};
@@ -98,15 +95,32 @@ bool is_known(SampleRange samples, const SampleColumn& column) {
   });
 }
 
-/// Whether a force is more than what solvers leave of the normal force.
+/// What solvers leave, of the normal force.
+constexpr double noise = 1e-7;
+
+/// Whether a force is more than that.
 bool significant(SampleRange samples, double meshes::PressSample::*force) {
-  constexpr double left = 1e-7;
   return std::ranges::any_of(samples, [force](const meshes::PressSample& sample) {
-    return std::abs(sample.*force) > left * std::abs(sample.normal_force);
+    return std::abs(sample.*force) > noise * std::abs(sample.normal_force);
   });
 }
 
-void add_samples(ChapterData& chapter, SampleRange samples, const SampleColumn& over) {
+/// Of a torque about the normal.
+bool holds_a_turn(SampleRange samples) {
+  return std::ranges::any_of(samples, [](const meshes::PressSample& sample) {
+    return std::abs(sample.spin_torque) >
+           noise * sample.contact_radius * std::abs(sample.normal_force);
+  });
+}
+
+/// Whether two rows are a motion of the plane at one depth.
+auto moves_by(double meshes::PressSample::*way) {
+  return [way](const meshes::PressSample& from, const meshes::PressSample& to) {
+    return from.indentation == to.indentation && std::abs(to.*way - from.*way) > 0.0;
+  };
+}
+
+void add_samples(ChapterData& chapter, SampleRange samples, const std::vector<SampleColumn>& over) {
   const std::vector<meshes::PressSample> shown = thinned(samples);
   chapter["shown"] = shown.size() < samples.size() ? std::to_string(shown.size()) : "";
   chapter["all"] = std::to_string(samples.size());
@@ -115,38 +129,80 @@ void add_samples(ChapterData& chapter, SampleRange samples, const SampleColumn& 
 
 }  // namespace
 
+std::string SampleColumn::label(const std::string& where) const {
+  std::string text = unit.label(title + where);
+  text.front() = char(std::tolower(text.front()));
+  return text;
+}
+
 SampleColumn indentation() {
   return {"Indentation", &meshes::PressSample::indentation, shown_units().length};
 }
 
-SampleColumn lateral_displacement() {
-  return {"Lateral displacement", &meshes::PressSample::lateral_displacement, shown_units().length};
+std::vector<PlaneMotion> plane_motions(SampleRange samples) {
+  using Sample = meshes::PressSample;
+  constexpr ShownUnit degrees{"angle", "rad", "deg", "deg", degree_per_radian};
+  std::vector<PlaneMotion> motions;
+  if (std::ranges::adjacent_find(samples, moves_by(&Sample::lateral_displacement)) != samples.end())
+    motions.push_back(
+        {{"Lateral displacement", &Sample::lateral_displacement, shown_units().length},
+         {"Lateral force", &Sample::lateral_force_x, shown_units().force}});
+  if (std::ranges::adjacent_find(samples, moves_by(&Sample::twist)) != samples.end())
+    motions.push_back({{"Twist", &Sample::twist, degrees},
+                       {"Torque about the normal", &Sample::spin_torque, shown_units().torque}});
+  return motions;
 }
 
-Table sample_table(SampleRange samples, const SampleColumn& over) {
+SampleRange moved_along_plane(const meshes::PressResponse& response) {
+  const SampleRange all = response.samples();
+  std::size_t first = all.size(), end = 0;
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (!moves_by(&meshes::PressSample::lateral_displacement)(all[i], all[i + 1]) &&
+        !moves_by(&meshes::PressSample::twist)(all[i], all[i + 1]))
+      continue;
+    first = std::min(first, i);
+    end = i + 2;
+  }
+  return end == 0 ? SampleRange() : all.subspan(first, end - first);
+}
+
+Table sample_table(SampleRange samples, const std::vector<SampleColumn>& over) {
   const ShownUnits& units = shown_units();
   using Sample = meshes::PressSample;
-  const bool lateral = significant(samples, &Sample::lateral_force_x);
+  const bool lateral = significant(samples, &Sample::lateral_force_x),
+             turned = holds_a_turn(samples);
   const SampleColumn columns[] = {
       normal_force(),
       {"Estimated error", &Sample::force_error, units.force},
       {"Lateral force", &Sample::lateral_force_x, units.force, "along t1, "},
       {"Estimated error", &Sample::lateral_force_error, units.force, "of the lateral force, "},
+      {"Torque about the normal", &Sample::spin_torque, units.torque},
       {"Contact radius", &Sample::contact_radius, units.length},
       {"Mean pressure", &Sample::mean_pressure, units.stress},
       {"Peak pressure", &Sample::max_pressure, units.stress}};
-  Table table{{{over.title, unit_name(over.unit)}}};
-  for (const Sample& sample : samples)
-    table.rows.push_back({fmt::format("{:.4g}", over.unit(sample.*over.value))});
+  Table table;
+  table.rows.resize(samples.size());
+  for (const SampleColumn& place : over) {
+    table.header.emplace_back(place.title, unit_name(place.unit));
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      table.rows[i].push_back(fmt::format("{:.4g}", place.unit(samples[i].*place.value)));
+  }
   for (const SampleColumn& column : columns) {
     const bool aside =
         column.value == &Sample::lateral_force_x || column.value == &Sample::lateral_force_error;
     if (aside && !lateral) continue;
+    if (column.value == &Sample::spin_torque && !turned) continue;
     table.header.emplace_back(column.title, column.direction + unit_name(column.unit));
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      table.rows[i].push_back(amount_cell(samples[i].*column.value, column.unit));
+    double largest = 0.0;
+    for (const Sample& sample : samples)
+      largest = std::fmax(largest, std::abs(sample.*column.value));
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const double value = samples[i].*column.value;
+      table.rows[i].push_back(
+          amount_cell(std::abs(value) < noise * largest ? 0.0 : value, column.unit));
+    }
   }
-  table.drop_unknown(1);
+  table.drop_unknown(over.size());
   return table;
 }
 
@@ -161,7 +217,7 @@ Chapter press_chapter(const meshes::PressResponse& response,
   chapter["error"] =
       std::ranges::any_of(force.series, [](const Series& series) { return !series.error.empty(); });
   chapter.figures = {{"force_indentation", 760, 420, 1, {std::move(force)}}};
-  add_samples(chapter, samples, indentation());
+  add_samples(chapter, samples, {indentation()});
   if (is_known(samples, radius))
     chapter.figures.push_back(
         {"contact_radius", 760, 340, 1, {curve_panel(samples, indentation(), radius)}});
@@ -169,29 +225,35 @@ Chapter press_chapter(const meshes::PressResponse& response,
 }
 
 Chapter sliding_chapter(const meshes::PressResponse& response) {
-  if (response.sliding().empty()) return {};
   // From where the press ended, which is the first sample of both.
-  const SampleRange samples =
-      SampleRange(response.samples()).subspan(response.pressing().size() - 1);
-  const bool free = !significant(samples, &meshes::PressSample::lateral_force_x);
+  const SampleRange samples = moved_along_plane(response);
+  const std::vector<PlaneMotion> motions = plane_motions(samples);
+  if (motions.empty()) return {};
   ChapterData chapter("sliding");
-  chapter["free"] = free;
-  chapter["depth"] = length(response.depth());
-  add_samples(chapter, samples, lateral_displacement());
-  if (!free) {
-    Panel panel =
-        curve_panel(samples, lateral_displacement(),
-                    {"Lateral force", &meshes::PressSample::lateral_force_x, shown_units().force});
-    const double end = shown_units().length(samples.back().lateral_displacement);
-    panel.x_range = Range{std::min(0.0, end), std::max(0.0, end)};
-    chapter.figures = {{"lateral_force", 760, 420, 1, {panel}}};
+  chapter["free"] = false;
+  chapter["depth"] = length(samples.front().indentation);
+  std::vector<SampleColumn> over;
+  for (const PlaneMotion& motion : motions) {
+    over.push_back(motion.way);
+    const bool twist = motion.way.value == &meshes::PressSample::twist;
+    if (twist ? !holds_a_turn(samples) : !significant(samples, motion.load.value)) {
+      chapter["free"] = true;
+      continue;
+    }
+    Panel panel = curve_panel(samples, motion.way, motion.load);
+    const Range range = extent_of(panel.series, &Series::x);
+    panel.x_range = Range{std::min(0.0, range.from), std::max(0.0, range.to)};
+    panel.y_range.reset();
+    chapter.figures.push_back({twist ? "spin_torque" : "lateral_force", 760, 420, 1, {panel}});
   }
+  add_samples(chapter, samples, over);
   return written(std::move(chapter));
 }
 
 std::string press_answer(const meshes::PressResponse& response, const PressSummary& summary) {
   TemplateData words;
-  for (const char* name : {"depth", "force", "radius", "moved", "held", "push", "error", "largest"})
+  for (const char* name :
+       {"depth", "force", "radius", "moved", "held", "turned", "turns", "push", "error", "largest"})
     words[name] = "";
   if (response.empty()) return sentences("answer_press", words);
   const meshes::PressSample& last = response.pressing().back();
@@ -204,12 +266,16 @@ std::string press_answer(const meshes::PressResponse& response, const PressSumma
           fmt::format("{:.2g} % at {}", 100.0 * error->largest, length(error->indentation));
   }
   if (last.contact_radius > 0.0) words["radius"] = length(last.contact_radius);
-  if (!response.sliding().empty()) {
-    const meshes::PressSample& end = response.sliding().back();
-    words["moved"] = length(end.lateral_displacement);
+  if (const SampleRange moved = moved_along_plane(response); !moved.empty()) {
+    const meshes::PressSample& end = moved.back();
     words["push"] = force(end.normal_force);
-    if (significant(response.sliding(), &meshes::PressSample::lateral_force_x))
-      words["held"] = force(end.lateral_force_x);
+    for (const PlaneMotion& motion : plane_motions(moved)) {
+      const bool twist = motion.way.value == &meshes::PressSample::twist;
+      const std::string way = motion.way.unit.text(end.*motion.way.value);
+      words[twist ? "turned" : "moved"] = way;
+      if (twist ? holds_a_turn(moved) : significant(moved, motion.load.value))
+        words[twist ? "turns" : "held"] = motion.load.unit.text(end.*motion.load.value);
+    }
   }
   return sentences("answer_press", words);
 }

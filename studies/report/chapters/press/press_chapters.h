@@ -29,12 +29,23 @@ struct SampleColumn {
   double meshes::PressSample::*value;
   ShownUnit unit;
   const char* direction = "";  ///< before the unit
+
+  /// "lateral force [mN]"
+  std::string label(const std::string& where = "") const;
 };
 /// What samples are ordered by.
 SampleColumn indentation();
-SampleColumn lateral_displacement();
-/// Force, error, lateral force, contact radius and peak pressure, as far as they are known.
-Table sample_table(SampleRange samples, const SampleColumn& over);
+/// A motion of the plane at one depth: how far, and what holds against it.
+struct PlaneMotion {
+  SampleColumn way, load;
+};
+/// Those that samples make, of lateral displacement and twist; mostly none.
+std::vector<PlaneMotion> plane_motions(SampleRange samples);
+/// The samples of these motions, from the last of the first loading on; none without motion.
+SampleRange moved_along_plane(const meshes::PressResponse& response);
+/// Force, error, lateral force, torque about the normal, contact radius and pressures, as far as
+/// they are known, beside what the samples are ordered by.
+Table sample_table(SampleRange samples, const std::vector<SampleColumn>& over);
 /// Stages of a program: when they were, force at both ends.
 Table stage_table(const std::vector<StageEntry>& stages);
 /// Pressure and shear of runs beside the first one, of that alone where it is alone; without blocks
@@ -51,7 +62,7 @@ Chapter press_chapter(const meshes::PressResponse& response,
 Chapter program_chapter(const meshes::PressResponse& response, const PressFiles& files);
 /// What --real-time chose, and what it costs; without blocks when nothing was tried.
 Chapter real_time_chapter(const RealTimeRecord& record);
-/// The lateral motion that followed the press; without blocks when none did.
+/// The motions of the plane that followed the press; without blocks when none did.
 Chapter sliding_chapter(const meshes::PressResponse& response);
 /// Its force at full depth in a sentence, its error, and the force at the end of a lateral motion.
 std::string press_answer(const meshes::PressResponse& response, const PressSummary& summary);
