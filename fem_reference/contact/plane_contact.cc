@@ -128,6 +128,7 @@ PlaneContact::GapAndNormal PlaneContact::gap_and_normal(const meshes::Vector3& r
                                                         const PlanePose& pose) const {
   const meshes::Vector3 out(0.0, 0.0, -1.0);
   const double over = pose.height - rest.z() - displacement.z();
+  if (obstacle_.is_plane()) return {over, out};
   const auto turn = pose.turn();
   const auto in_obstacle_axes = [&](const meshes::Vector3& place) -> meshes::Vector3 {
     return turn.inverse() * meshes::Vector3(place.x() - pose.shift, place.y(), over);
@@ -351,19 +352,12 @@ void PlaneContact::touch_at_start() {
     }
 }
 
-Eigen::VectorXd PlaneContact::friction_forces() const {
-  std::vector<double> forces;
+std::vector<int> PlaneContact::sliding_unknowns() const {
+  std::vector<int> result;
   for (std::size_t node = 0; node < trial_.status.size(); ++node)
     for (std::size_t c = 0; c < 2 && trial_.status[node] == NodeStatus::slide; ++c)
-      if (const int i = unknowns_.of_node[node][c]; i >= 0) forces.push_back(trial_.reaction[i]);
-  return Eigen::Map<Eigen::VectorXd>(forces.data(), Eigen::Index(forces.size()));
-}
-
-void PlaneContact::set_friction_forces(const Eigen::VectorXd& forces) {
-  Eigen::Index next = 0;
-  for (std::size_t node = 0; node < trial_.status.size(); ++node)
-    for (std::size_t c = 0; c < 2 && trial_.status[node] == NodeStatus::slide; ++c)
-      if (const int i = unknowns_.of_node[node][c]; i >= 0) trial_.reaction[i] = forces[next++];
+      if (const int i = unknowns_.of_node[node][c]; i >= 0) result.push_back(i);
+  return result;
 }
 
 double PlaneContact::update_friction(const ConstrainedSolution& solution, bool may_stick,
@@ -434,10 +428,11 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
     std::vector<std::size_t> wrong = offenders(solution, solver.noise());
     double change = 0.0;
     if (mode_ == ContactMode::coulomb) {
-      const Eigen::VectorXd before = friction_forces();
+      const std::vector<int> sliding = sliding_unknowns();
+      const Eigen::VectorXd before = trial_.reaction(sliding);
       change = update_friction(solution, effort.rounds <= friction_patience, solver.noise());
       if (wrong.empty() && std::isfinite(change))
-        set_friction_forces(mixing.next(before, friction_forces()));
+        trial_.reaction(sliding) = mixing.next(before, trial_.reaction(sliding));
       else
         mixing.forget();
     }

@@ -208,9 +208,8 @@ class PlaneContact {
   double update_friction(const ConstrainedSolution& solution, bool may_stick, double noise);
   /// Of a solution's nodes: those whose force is less than friction holds stick.
   void stick_where_friction_holds(const ConstrainedSolution& solution);
-  /// Friction forces of all that slide, one after the other [N].
-  Eigen::VectorXd friction_forces() const;
-  void set_friction_forces(const Eigen::VectorXd& forces);
+  /// Those that friction loads, among the contact unknowns.
+  std::vector<int> sliding_unknowns() const;
 
   ContactUnknowns unknowns_;
   std::vector<std::size_t> leaders_;  ///< of each node: itself, or the one that it follows

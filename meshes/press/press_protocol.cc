@@ -123,9 +123,6 @@ class ProgramRules {
   std::size_t number_ = 0;  ///< of the stage, from 1; 0: the whole program
   std::vector<Violation> found_;
 };
-}  // namespace
-
-namespace {
 
 /// One way, with the poses at which output is wanted; the last one ends it.
 struct Way {

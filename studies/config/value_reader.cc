@@ -126,9 +126,8 @@ Value read_terms(const Key& key, const toml::node& node) {
 }
 
 constexpr const char* stage_advice =
-    "write e.g. [[\"0.3 cm\", \"1 cm/s\"], [\"hold\", \"2 s\"], [\"twist\", \"5 deg\", \"10 "
-    "deg/s\"], "
-    "[\"0 cm\", \"1 cm/s\"]]";
+    "write e.g. [[\"0.3 cm\", \"1 cm/s\"], [\"hold\", \"2 s\"], "
+    "[\"twist\", \"5 deg\", \"10 deg/s\"], [\"0 cm\", \"1 cm/s\"]]";
 
 /// One of a program; `reached` is the one before it.
 meshes::PressStage read_stage(const toml::node& node, const meshes::PressStage& reached) {
