@@ -156,7 +156,8 @@ TEST(Variants, ProblemsAreToldWithTheLineOfTheVariant) {
       says(refusal(folder, variant_with("\"reference.strain\" = \"finite\"")), "kinematics"));
   EXPECT_TRUE(says(refusal(folder, variant_with("lattice = { spacing = \"1 mm\" }")), "in quotes"));
   EXPECT_TRUE(
-      says(refusal(folder, variant_with("\"press.contact\" = \"coulomb\"")), "press.contact"));
+      says(refusal(folder, variant_with("\"press.contact\" = \"sticky\"")), "press.contact"));
+  EXPECT_EQ(refusal(folder, variant_with("\"press.contact\" = \"coulomb\"")), "");
   EXPECT_TRUE(says(refusal(folder, variant_with("") + variant_with("")), "once in a series"));
   EXPECT_TRUE(
       says(refusal(folder, variant_with("") + "[[case.budget]]\nname = \"b\"\nparts = [\"s\"]\n"),
