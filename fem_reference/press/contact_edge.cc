@@ -21,7 +21,7 @@ using Eigen::Vector2d;
 constexpr std::array<double, 4> reaches = {5.0, 7.0, 10.0, 15.0};
 constexpr int fewest_rings = 4;
 constexpr int nodes_per_ring = 16;  ///< all around a solid's contact, at least
-constexpr int points_around = 36;   ///< for which a ring is told
+constexpr int points_around = 76;   ///< for which the outermost ring is told
 
 Vector2d seen(const meshes::ContactPoint& node) {
   return node.place.head<2>();
@@ -101,6 +101,12 @@ std::optional<double> edge_of(const PushedNodes& contact, const Ellipse& ellipse
   return {};
 }
 
+/// Points as far apart on all rings, but on the innermost; as many in each quarter.
+int points_on(double share_of_outermost) {
+  return share_of_outermost > 0.0 ? 4 * int(std::ceil(0.25 * points_around * share_of_outermost))
+                                  : 1;
+}
+
 }  // namespace
 
 std::vector<meshes::ContactPoint> pushed_nodes(const PlaneContact& contact,
@@ -115,7 +121,8 @@ std::vector<meshes::ContactPoint> pushed_nodes(const PlaneContact& contact,
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (status[i] == NodeStatus::open || !(seen[i] > 0.0)) continue;
     meshes::ContactPoint& point = pushed.emplace_back();
-    point.place = nodes[i].position + moved[i];
+    point.rest = nodes[i].position;
+    point.place = point.rest + moved[i];
     point.normal = contact.normal(i);
     point.area = seen[i] / -point.normal.z();
     point.state =
@@ -138,12 +145,15 @@ double contact_radius(const PushedNodes& contact) {
 
 void measure_contact(PressState& state, const PushedNodes& contact) {
   state.node_spacing = contact.spacing;
-  double peak = 0.0;
+  double peak = 0.0, outermost = 0.0;
+  for (const meshes::ContactPoint& node : contact.nodes)
+    outermost = std::max(outermost, seen(node).norm());
   state.contact.clear();
   for (const meshes::ContactPoint& node : contact.nodes) {
     peak = std::max(peak, node.normal_traction);
     if (contact.meridian)
-      std::ranges::copy(turned_around(node, points_around), std::back_inserter(state.contact));
+      std::ranges::copy(turned_around(node, points_on(seen(node).norm() / outermost)),
+                        std::back_inserter(state.contact));
   }
   if (!contact.meridian) state.contact = meshes::unfolded(contact.nodes, contact.sectors);
   state.set_contact(contact_radius(contact), peak);

@@ -349,6 +349,7 @@ std::vector<TiedPoint> PenaltyContact::points(const State& state, const Vector3&
       meshes::ContactPoint& point =
           found.emplace_back(TiedPoint{{}, tie.corners, tie.weights}).point;
       const Vector3 place = tie.rest + axes * shift(tie, state, 0.0);
+      point.rest = tie.rest;
       point.place = finite ? Vector3(place - travel) : tie.rest;
       point.normal = finite ? plane_.normal_at(place) : plane_.normal;
       if (!finite) {

@@ -7,8 +7,10 @@
 #include <optional>
 #include <stdexcept>
 #include <variant>
+#include <vector>
 
 #include "lattice/model/rod.h"
+#include "meshes/press/taxels.h"
 
 namespace fingertip::lattice::inline control {
 
@@ -25,7 +27,8 @@ struct Measurement {
   Pose pose;          ///< position of the endpoint [m], orientation since the start
   Twist twist;        ///< of the endpoint
   Wrench wrench;      ///< of the tip on the rod, about the endpoint [N, N m]
-  std::optional<ContactState> contact;  ///< where a tactile sensor is configured
+  std::optional<ContactState> contact;         ///< where a tactile sensor is configured
+  std::vector<meshes::TaxelReading> taxels{};  ///< of the skin, in its order; empty without one
 };
 
 /// A set point for the built-in servo: where the endpoint should be and how it should move.

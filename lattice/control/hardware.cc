@@ -44,6 +44,10 @@ std::vector<meshes::Violation> HardwareSettings::violations() const {
           angular_velocity);
   channel("hardware.force_noise", "hardware.force_resolution", force);
   channel("hardware.torque_noise", "hardware.torque_resolution", torque);
+  channel("sensor.noise", "sensor.resolution", taxel);
+  not_negative("sensor.rate", taxel_rate);
+  not_negative("sensor.latency", taxel_latency);
+  append(found, skin.violations());
   not_negative("hardware.sensor_latency", sensor_latency);
   not_negative("hardware.actuator_latency", actuator_latency);
   not_negative("hardware.force_rate", force_rate);
@@ -55,23 +59,45 @@ Hardware::Hardware(const HardwareSettings& settings, double force_limit, double 
     : settings_(settings),
       force_limit_(force_limit),
       torque_limit_(torque_limit),
-      generator_(settings.seed) {}
+      generator_(settings.seed),
+      skin_generator_(~settings.seed) {}
 
 void Hardware::reset() {
   generator_.seed(settings_.seed);
+  skin_generator_.seed(~settings_.seed);
   last_ = {};
+  skin_.clear();
 }
 
-Vector3 Hardware::read(const Vector3& truth, const SensorChannel& channel) {
+Vector3 Hardware::read(const Vector3& truth, const SensorChannel& channel,
+                       std::mt19937_64& generator) {
   Vector3 reading = truth;
   if (channel.noise > 0.0) {
     std::normal_distribution<double> normal(0.0, channel.noise);
-    for (int axis = 0; axis < 3; ++axis) reading[axis] += normal(generator_);
+    for (int axis = 0; axis < 3; ++axis) reading[axis] += normal(generator);
   }
   if (channel.resolution > 0.0) {
     reading = channel.resolution * (reading / channel.resolution).array().round().matrix();
   }
   return reading;
+}
+
+/// The newest reading that is old enough, else the first one.
+const std::vector<meshes::TaxelReading>& Hardware::read_skin(const Measurement& truth) {
+  constexpr double round_off = 1e-9;  // of a second
+  const double rate = settings_.taxel_rate;
+  const auto tick = [rate](double time) { return std::floor(rate * (time + round_off)); };
+  if (skin_.empty() || rate == 0.0 || tick(truth.time) > tick(skin_.back().time)) {
+    skin_.push_back({truth.time, truth.taxels});
+    for (meshes::TaxelReading& taxel : skin_.back().taxels) {
+      const Vector3 felt = read({taxel.shear_u, taxel.shear_v, taxel.normal_stress},
+                                settings_.taxel, skin_generator_);
+      taxel = {felt.z(), felt.x(), felt.y()};
+    }
+  }
+  while (skin_.size() > 1 && skin_[1].time <= truth.time - settings_.taxel_latency + round_off)
+    skin_.pop_front();
+  return skin_.front().taxels;
 }
 
 Measurement Hardware::sense(const Measurement& truth) {
@@ -86,6 +112,7 @@ Measurement Hardware::sense(const Measurement& truth) {
   m.wrench.force = read(truth.wrench.force, settings_.force);
   m.wrench.torque = read(truth.wrench.torque, settings_.torque);
   if (!settings_.tactile) m.contact.reset();
+  if (!truth.taxels.empty()) m.taxels = read_skin(truth);
   return m;
 }
 

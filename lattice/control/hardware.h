@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <random>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct HardwareSettings {
   SensorChannel force;             ///< [N]
   SensorChannel torque;            ///< [N m]
   bool tactile = true;             ///< whether Measurement::contact is there
+  meshes::TaxelSkin skin;          ///< whether Measurement::taxels are there
+  SensorChannel taxel;             ///< of each of their three stresses [Pa]
+  double taxel_rate = 0.0;         ///< of new readings [Hz], >= 0; 0: one each time they are asked
+  double taxel_latency = 0.0;      ///< and their age, besides sensor_latency [s], >= 0
 
   double sensor_latency = 0.0;    ///< age of a measurement when the controller gets it [s], >= 0
   double actuator_latency = 0.0;  ///< until a command acts [s], >= 0
@@ -54,12 +59,23 @@ class Hardware {
   const HardwareSettings& settings() const { return settings_; }
 
  private:
-  meshes::Vector3 read(const meshes::Vector3& truth, const SensorChannel& channel);
+  meshes::Vector3 read(const meshes::Vector3& truth, const SensorChannel& channel) {
+    return read(truth, channel, generator_);
+  }
+  static meshes::Vector3 read(const meshes::Vector3& truth, const SensorChannel& channel,
+                              std::mt19937_64& generator);
+  const std::vector<meshes::TaxelReading>& read_skin(const Measurement& truth);
 
   HardwareSettings settings_;
   double force_limit_, torque_limit_;
-  std::mt19937_64 generator_;
+  /// The skin's own: what others read does not depend on whether there is one.
+  std::mt19937_64 generator_, skin_generator_;
   Wrench last_;
+  struct SkinReading {
+    double time = 0.0;  ///< when it was taken [s]
+    std::vector<meshes::TaxelReading> taxels;
+  };
+  std::deque<SkinReading> skin_;  ///< the one that is told, and those that are not yet due
 };
 
 }  // namespace fingertip::lattice::inline control

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "lattice/control/controller.h"
 
@@ -22,6 +23,7 @@ struct ControlTask {
   double clearance = 0.5e-3;                           ///< between pole and plane at the start [m]
   double depth = 3.0e-3;                               ///< wanted indentation [m]
   double speed = 0.01;                                 ///< of the approach [m/s]
+  std::vector<meshes::Taxel> taxels;                   ///< of Measurement::taxels
   /// The approach at that speed, started smoothly, in the rod's starting orientation.
   std::function<Target(double time)> path;
   /// Lets a controller try the robot from its start, through the same hardware, until `done` or for

@@ -51,6 +51,16 @@ Measurement VirtualFinger::read() const {
   m.contact = ContactState{finger_->touching(),
                            finger_->contact_patch().radius,
                            {force, impulse.torque / finger_->step() - endpoint.cross(force)}};
+  if (setup_.skin.taxels.empty()) return m;
+  // As the rod sees it, which may have turned.
+  const Eigen::Matrix3d from_plane = field_axes(finger_->plane().normal),
+                        to_rod = rod.pose().orientation.conjugate().toRotationMatrix() * from_plane;
+  std::vector<meshes::ContactPoint> field = finger_->contact_field();
+  for (meshes::ContactPoint& point : field) {
+    point.rest = from_plane * point.rest;
+    for (meshes::Vector3* vector : {&point.shear, &point.normal}) *vector = to_rod * *vector;
+  }
+  m.taxels = taxel_readings(field, setup_.skin);
   return m;
 }
 

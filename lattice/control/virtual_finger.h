@@ -24,6 +24,7 @@ struct FingerSetup {
   ContactLaw contact;
   Plane plane;                                        ///< clear of the tip
   meshes::Vector3 gravity = meshes::Vector3::Zero();  ///< [m/s²]
+  meshes::TaxelSkin skin;                             ///< that read() tells
   bool prescribed = false;  ///< the rod moves as it is told (RodMotion), whatever pulls at it
   Integrator integrator = Integrator::symplectic_euler;
   std::optional<double> time_step;  ///< largest one [s]; the largest safe one when absent

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lattice/contact/contact_smoothing.h"
 #include "lattice/forces/energy.h"
 
 namespace fingertip::lattice::inline dynamics {
@@ -250,6 +251,14 @@ void Finger::finish_step(double duration, const Wrench& plane_impulse, const Vec
                 now_.step * now_.bond.force.norm()});
   now_.plane = now_.plane.after(now_.step);
   now_.time += now_.step;
+}
+
+std::vector<meshes::ContactPoint> Finger::contact_field() const {
+  const Eigen::Matrix3d to_plane = field_axes(now_.plane.normal).transpose();
+  std::vector<TiedPoint> points = tied_points();
+  for (TiedPoint& tied : points)
+    for (Vector3* vector : tied.point.vectors()) *vector = to_plane * *vector;
+  return contact::contact_field(points, model_->sector.count());
 }
 
 double Finger::kinetic_energy() const {

@@ -142,6 +142,8 @@ class Finger {
     const meshes::Vector3 travel = now_.rod.endpoint() - now_.rod.body().endpoint;
     return ask([&](const auto& s) { return s.points(now_.state, travel); });
   }
+  /// The field of the whole contact (contact_smoothing.h), along field_axes of the plane's normal.
+  std::vector<meshes::ContactPoint> contact_field() const;
   /// Per boundary particle of the model: 1 where it sticks to the plane or touches it without
   /// friction, 2 where it slides (coulomb), else 0.
   std::vector<std::uint8_t> held() const {

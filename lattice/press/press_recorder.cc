@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lattice/contact/contact_smoothing.h"
-
 namespace fingertip::lattice::inline press {
 
 using meshes::PressSample, meshes::Vector3;
@@ -126,12 +124,7 @@ void PressRecorder::add_work(const PressInstant& end) {
 
 /// For the last row, at an indentation of the last step [m].
 void PressRecorder::note_contact(double indentation) {
-  const Eigen::Matrix3d to_plane = field_axes(normal_).transpose();
-  std::vector<TiedPoint> points = finger_->tied_points();
-  for (TiedPoint& tied : points)
-    for (Vector3* vector : {&tied.point.place, &tied.point.shear, &tied.point.normal})
-      *vector = to_plane * *vector;
-  const auto field = contact_field(points, finger_->model().sector.count());
+  const auto field = finger_->contact_field();
   if (!field.empty()) outcome_->response.back().spin_torque = spin_torque(field);
   add_sample(field, int(outcome_->response.samples().size()), indentation, outcome_->contact);
 }

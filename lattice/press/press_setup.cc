@@ -203,6 +203,10 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
     };
     straight("press.tilt", protocol.tilt, " rad");
     straight("press.lateral", protocol.lateral, " m");
+    if (const auto& taxels = setup.hardware.skin.taxels; !taxels.empty())
+      found.push_back({"sensor.taxels", std::to_string(taxels.size()) + " taxels",
+                       "the published lattice, moving, stops particles: it knows no pressure",
+                       "take another model, or press.mode = static"});
     if (protocol.goes_back() && protocol.contact == meshes::ContactMode::stick)
       found.push_back(
           {"press.program", std::to_string(protocol.program.size()) + " stages",

@@ -26,6 +26,7 @@ FingerSetup finger_setup(const PressSetup& setup, const PressWay& way) {
   finger.plane.point = way.plane.point(-setup.protocol.clearance);
   finger.plane.normal = way.plane.normal;
   finger.plane.obstacle = way.plane.obstacle;
+  finger.skin = setup.hardware.skin;
   finger.gravity = -setup.gravity * way.plane.normal;
   finger.prescribed = setup.protocol.mode == meshes::DriveMode::quasi_static;
   finger.integrator = setup.integrator;
@@ -67,6 +68,7 @@ FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way) {
 ControlTask control_task(const PressSetup& setup, const PressWay& way, const RodBody& rod) {
   const meshes::PressProtocol& protocol = setup.protocol;
   ControlTask task;
+  task.taxels = setup.hardware.skin.taxels;
   task.period = setup.controller.period;
   task.inertia = rod.inertia_at_endpoint();
   task.force_limit = setup.controller.force_limit;

@@ -28,7 +28,8 @@ FINGERTIP_FIELDS_BUT((stiffness), ForceSettings, force, bandwidth, touch_force, 
 FINGERTIP_FIELDS(SensorChannel, noise, resolution);
 
 FINGERTIP_FIELDS(HardwareSettings, position, orientation, velocity, angular_velocity, force, torque,
-                 tactile, sensor_latency, actuator_latency, force_rate, torque_rate, seed);
+                 tactile, skin, taxel, taxel_rate, taxel_latency, sensor_latency, actuator_latency,
+                 force_rate, torque_rate, seed);
 
 /// What a result depends on: not the threads, and a maker of controllers is its identity.
 FINGERTIP_FIELDS_BUT((make_controller, threads), PressSetup, geometry, rubber, protocol, lattice,

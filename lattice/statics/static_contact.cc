@@ -281,7 +281,8 @@ std::vector<TiedPoint> StaticContact::points(const VectorXd& displacement) const
     const EmbeddedPoint& outer = body_->outer[i];
     points.push_back({{}, outer.corners, outer.weights});
     meshes::ContactPoint& point = points.back().point;
-    point.place = to_plane * (body_->finite ? position(outer, displacement) : outer.rest);
+    point.rest = to_plane * outer.rest;
+    point.place = body_->finite ? to_plane * position(outer, displacement) : point.rest;
     point.normal = to_plane * gap_and_normal(i, displacement).normal;
     point.area = area(i, displacement);
     point.set_force(to_plane * tie_force(i, displacement));

@@ -48,13 +48,11 @@ std::vector<ContactPoint> unfolded(std::span<const ContactPoint> points, int sec
     for (std::size_t i = 0; i < count; ++i) {
       if (std::abs(all[i].place[axis]) < on_plane) {
         all[i].area *= 2.0;
-        for (Vector3* vector : {&all[i].place, &all[i].shear, &all[i].normal})
-          (*vector)[axis] = 0.0;
+        for (Vector3* vector : all[i].vectors()) (*vector)[axis] = 0.0;
         continue;
       }
       ContactPoint image = all[i];
-      for (Vector3* vector : {&image.place, &image.shear, &image.normal})
-        (*vector)[axis] = -(*vector)[axis];
+      for (Vector3* vector : image.vectors()) (*vector)[axis] = -(*vector)[axis];
       all.push_back(image);
     }
   };
@@ -65,11 +63,16 @@ std::vector<ContactPoint> unfolded(std::span<const ContactPoint> points, int sec
 
 std::vector<ContactPoint> turned_around(const ContactPoint& ring, int count) {
   std::vector<ContactPoint> all(std::size_t(count), ring);
+  const double radius = ring.place.head<2>().norm(),
+               reach = radius > 0.0 ? std::max(std::numbers::pi * radius / count,
+                                               0.25 * ring.area / (std::numbers::pi * radius))
+                                    : 0.0;
   for (int i = 0; i < count; ++i) {
     ContactPoint& point = all[std::size_t(i)];
     const Eigen::AngleAxisd turn(2.0 * std::numbers::pi * (i + 0.5) / count, Vector3::UnitZ());
     point.area = ring.area / count;
-    for (Vector3* vector : {&point.place, &point.shear, &point.normal}) *vector = turn * *vector;
+    point.reach = reach;
+    for (Vector3* vector : point.vectors()) *vector = turn * *vector;
   }
   return all;
 }

@@ -1,6 +1,7 @@
 /// Pressure and shear in the contact, point by point: contact_field.csv.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -33,20 +34,25 @@ struct ContactPoint {
   Vector3 shear = Vector3::Zero();     ///< of the obstacle on the tip, across `normal` [Pa]
   Vector3 normal = -Vector3::UnitZ();  ///< out of the obstacle; of small strain n itself
   ContactState state = ContactState::stick;
+  Vector3 rest = Vector3::Zero();  ///< in the undeformed finger, along the same axes [m]
+  double reach = 0.0;  ///< half the longer side of its part, where that is no square [m]
 
   /// Of the obstacle on the tip [N].
   Vector3 force() const { return area * (normal_traction * normal + shear); }
   /// Tractions from a force [N]; normal and area are known by then.
   void set_force(const Vector3& force);
+  /// All that turns when the axes do.
+  std::array<Vector3*, 4> vectors() { return {&place, &shear, &normal, &rest}; }
 };
 
 /// The columns of contact_field.csv. What does not touch is not listed.
 consteval auto fields_of(const ContactPoint*) {
   return FINGERTIP_ALL_MEMBERS(ContactPoint, sample, indentation, place, area, normal_traction,
-                               shear, normal, state)
-      .in("m", "indentation place")
+                               shear, normal, state, rest, reach)
+      .in("m", "indentation place rest reach")
       .in("m^2", "area")
       .in("Pa", "normal_traction shear")
+      .newer("rest reach")
       .called("place", "x,y,z");
 }
 

@@ -25,7 +25,7 @@ bool sets_key(const CaseRun& run, const std::string& key) {
 const std::vector<RunKind>& run_kinds() {
   static const std::vector<RunKind> kinds = {
       {"run", "", "", false, {"verb", "beside", "varied", "when", "times", "exhibit"}},
-      {"variant", "press", "variants", true, {"beside"}},
+      {"variant", "press", "variants", true, {"beside", "snapshots"}},
       {"fit", "fit", "fits", true, {}},
       {"prediction", "press", "", true, {}},  // below each fit
       {"press", "press", "presses", false, {"beside", "continuum", "snapshots"}},
@@ -111,7 +111,10 @@ LoadedConfig run_config(const Case& study_case, const CaseRun& run) {
   if (kind->at_rest) sets.emplace_back("press.mode=static");
   try {
     LoadedConfig loaded = with_sets(study_case.loaded, sets);
-    const bool in_time = run.is("variant") && !loaded.config.press.protocol.program.empty();
+    const meshes::PressProtocol& protocol = loaded.config.press.protocol;
+    // What moves along the plane does so at rest.
+    const bool in_time =
+        run.is("variant") && !protocol.program.empty() && !protocol.has_plane_moves();
     if (in_time) loaded = with_sets(loaded, {"press.mode=quasi-static"});
     keep_spacing(loaded, study_case.loaded);
     return loaded;

@@ -25,8 +25,8 @@ struct RunKind {
   std::string name;    ///< KIND
   std::string verb;    ///< what its runs compute; empty: they say it themselves
   std::string folder;  ///< of its runs, below that of the case's run; empty: no such folder
-  bool at_rest;        ///< static presses (variants with a program: quasi-static), measured against
-                       ///< the continuum of their kinematics
+  bool at_rest;        ///< static presses (variants with a program that does not move along the
+                       ///< plane: quasi-static), measured against the continuum of their kinematics
   std::set<std::string> entries;  ///< beside name, series, x and set
 };
 
@@ -49,7 +49,7 @@ struct CaseRun {
   std::string law = {};     ///< of a fit of laws: which one is measured; empty: every one
   std::string test = {};    ///< likewise, by which of the tests; empty: by all
   bool continuum = false;   ///< measured against a continuum: the transient one at the same speed
-  bool snapshots = false;   ///< drawn in the report
+  bool snapshots = false;   ///< drawn in the report; of a variant its contact
   bool exhibit = false;     ///< may fail to converge without failing the case
 
   bool is(std::string_view wanted) const { return kind == wanted; }

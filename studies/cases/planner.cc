@@ -6,6 +6,8 @@
 #include <cctype>
 #include <utility>
 
+#include "lattice/press/setup_fields.h"
+#include "meshes/tables/fields_json.h"
 #include "studies/cases/measures.h"
 #include "studies/config/finger_defaults.h"
 #include "studies/config/keys/key_table.h"
@@ -17,6 +19,7 @@
 #include "studies/presses/press_record.h"
 #include "studies/presses/press_setup.h"
 #include "studies/presses/reference_job.h"
+#include "studies/presses/taxel_record.h"
 
 namespace fingertip::studies::inline cases {
 
@@ -87,6 +90,11 @@ LawInput laws_of(const LoadedConfig& loaded, const CaseRun& run) {
   return input;
 }
 
+/// Whether the contact of a variant is drawn, with what its skin feels.
+bool is_drawn(const CaseRun& run) {
+  return run.is("variant") && run.snapshots;
+}
+
 /// Continua first, then the longest, so that the workers end together.
 void sort(std::vector<PlannedJob>& jobs) {
   std::ranges::stable_sort(jobs, std::greater(), [](const PlannedJob& planned) {
@@ -140,6 +148,8 @@ void Planner::add(const CaseRun& run) {
   try {
     if (run.verb == "press") add_press(loaded, result);
     result.folder = planned(result, job_of(loaded, result));
+    if (is_drawn(run))
+      for (const std::string& folder : {result.folder, result.against}) keep_skin(result, folder);
   } catch (const ConfigError& error) {
     throw at_run(error, run);
   }
@@ -167,6 +177,17 @@ void Planner::add_press(const LoadedConfig& loaded, RunResult& result) {
     // One finger, two ways to write it: the other one's continuum is its own.
     if (run.is("variant")) result.against = results_[i].against;
   }
+}
+
+/// taxels.csv stands in the folder of a job, which does not know of it.
+void Planner::keep_skin(const RunResult& result, const std::string& folder) {
+  const std::string skin =
+      meshes::json_of<nlohmann::ordered_json>(result.setup.hardware.skin).dump();
+  const auto [known, is_new] = skins_.try_emplace(folder, skin);
+  if (!is_new && known->second != skin)
+    throw ConfigError({"sensor.taxels", "another skin",
+                       "the same press stands in this case with one skin and with another",
+                       "give both the same skin", result.run->place});
 }
 
 void Planner::add_fit(const LoadedConfig& loaded, RunResult result) {
@@ -291,6 +312,11 @@ RunResults Planner::results(const fs::path& folder, const std::vector<JobResult>
     if (job != jobs.end()) result.status = job->status;
     const fs::path place = folder / result.folder;
     read_summary(place, result);
+    if (is_drawn(*result.run)) {
+      for (const std::string& own : {result.folder, result.against})
+        if (!own.empty()) write_taxels(folder / own, result.setup);
+      result.contact = contact_errors(result.setup, place, folder / result.against);
+    }
     const meshes::PressProtocol& protocol = result.setup.protocol;
     const bool verdict = result.run->is_verdict();
     if (verdict || !result.against.empty())

@@ -53,6 +53,7 @@ class Planner {
 
   void add(const CaseRun& run);
   void add_press(const LoadedConfig& loaded, RunResult& result);
+  void keep_skin(const RunResult& result, const std::string& folder);
   void add_fit(const LoadedConfig& loaded, RunResult result);
   void add_prediction(const CaseRun& prediction, const RunResult& fit);
   Job job_of(const LoadedConfig& loaded, RunResult& result);
@@ -71,6 +72,7 @@ class Planner {
   bool predicted_ = false;
   std::map<std::string, std::string> folder_of_key_;
   std::set<std::string> folders_;
+  std::map<std::string, std::string> skins_;  ///< of folders with a taxels.csv, as text
 };
 
 }  // namespace fingertip::studies::inline cases

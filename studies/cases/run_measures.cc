@@ -49,6 +49,7 @@ double relative_error(double value, double wanted) {
 /// As what a run is measured: its kind, with the verb where that is its own, and what it is beside.
 Roles roles_of(const CaseRun& run) {
   Roles all = {run.is("run") ? "run " + run.verb : run.kind};
+  if (run.is("variant") && run.snapshots) all.emplace_back("drawn");
   if (run.is("press") && run.continuum) all.emplace_back("beside continuum");
   if (!run.is("run") && !run.beside.empty()) all.emplace_back("beside press");
   return all;
@@ -234,6 +235,12 @@ RunMeasure grasp_error(const char* name, double GraspSummary::*number,
           }};
 }
 
+/// Of a contact that is drawn.
+RunMeasure of_contact(const char* name, std::function<double(const ContactErrors&)> take) {
+  return {
+      name, {"drawn"}, [take](const Evidence& run) { return std::abs(take(run.result.contact)); }};
+}
+
 std::vector<RunMeasure> all_measures() {
   using R = const Evidence&;
   using lattice::TraceRow;
@@ -271,6 +278,15 @@ std::vector<RunMeasure> all_measures() {
       {"hold_error", {"variant"}, hold_error},
       {"later_error", {"variant"}, later_error},
       {"loop_error", {"variant"}, [](R run) { return std::abs(run.result.forces.loop_error); }},
+      of_contact("pressure_error", [](const ContactErrors& e) { return e.field.pressure_l2; }),
+      of_contact("shear_error", [](const ContactErrors& e) { return e.field.shear_l2; }),
+      of_contact("peak_error", [](const ContactErrors& e) { return e.field.peak; }),
+      of_contact("radius_error", [](const ContactErrors& e) { return e.field.radius; }),
+      of_contact("lateral_error", [](const ContactErrors& e) { return e.lateral; }),
+      of_contact("torque_error", [](const ContactErrors& e) { return e.torque; }),
+      of_contact("taxel_error", [](const ContactErrors& e) { return e.taxels; }),
+      of_contact("skin_force_error", [](const ContactErrors& e) { return e.skin_force; }),
+      of_contact("hertz_error", [](const ContactErrors& e) { return e.hertz; }),
       {"held", {"grasp"}, [](R run) { return is_held(run) ? 1.0 : 0.0; }},
       {"lost", {"grasp"}, [](R run) { return is_held(run) ? 0.0 : 1.0; }},
       {"surplus",

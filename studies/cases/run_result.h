@@ -8,6 +8,7 @@
 #include "calibration/files/fit_file.h"
 #include "calibration/material_tests/law_record.h"
 #include "studies/cases/case_file.h"
+#include "studies/cases/contact_measures.h"
 #include "studies/cases/force_comparison.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/files/press_summary.h"
@@ -33,6 +34,7 @@ struct RunResult {
   calibration::FitFile found = {};  ///< calibration.json of a fit; one to moduli has no curves
   calibration::LawsFile laws = {};  ///< laws.json of a fit of laws
   ForceComparison forces = {};      ///< with what they are measured against
+  ContactErrors contact = {};       ///< of a variant whose contact is drawn, likewise
   ForceComparison change = {};      ///< with the press it stands beside, at that one's samples
   Measures measures = {};           ///< of this run alone, see measures.h
   bool ok() const { return status == finished; }

@@ -106,6 +106,14 @@ std::vector<BudgetEntry> budget_entries(const Case& study_case, const RunResults
   return list;
 }
 
+std::vector<DrawnEntry> drawn_entries(const Members& variants) {
+  std::vector<DrawnEntry> list;
+  for (const RunResult* result : variants)
+    if (result->run->snapshots)
+      list.push_back({full_name(*result->run), result->folder, result->against});
+  return list;
+}
+
 StudyEntry study_entry(const Case& study_case, const Planner& planner, const RunResults& results) {
   const Members variants = members(results, "variant");
   const auto lost = std::size_t(std::ranges::count(variants, false, &RunResult::ok));
@@ -114,7 +122,8 @@ StudyEntry study_entry(const Case& study_case, const Planner& planner, const Run
           lost,
           series_entries(results),
           continuum_entries(planner, variants),
-          budget_entries(study_case, results)};
+          budget_entries(study_case, results),
+          drawn_entries(variants)};
 }
 
 TransferEntry transfer_entry(const Case& study_case, const RunResults& results) {

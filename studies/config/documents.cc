@@ -45,8 +45,10 @@ nlohmann::json element_schema(const Key& key) {
       schema = {{"type", "object"}, {"additionalProperties", false}};
       for (const Field& field : key.fields)
         schema["properties"][field.name] = {
-            {"type", "string"},
+            {"type", field.unit == "1" ? "integer" : "string"},
             {"description", field.help + (field.unit.empty() ? "" : " [" + field.unit + "]")}};
+      if (key.or_file) schema["minProperties"] = 1;
+      if (key.or_file) schema = {{"anyOf", {schema, {{"type", "string"}, {"minLength", 1}}}}};
       return schema;
     case Kind::choice:
       schema["enum"] = json::array();
@@ -140,7 +142,7 @@ std::string explanation(const Key& key) {
     text += fmt::format("  {:<18} {}\n", choice.word, choice.meaning);
   }
   for (const Field& field : key.fields)
-    text += fmt::format("  {:<18} {}, e.g. \"{}\"\n", field.name, field.help, field.example);
+    text += fmt::format("  {:<18} {}, e.g. {}\n", field.name, field.help, field.literal());
   if (key.kind == Kind::source) text += fmt::format("  {:<18} {}\n", "PATH", "a file");
   if (!key.rule.empty()) text += fmt::format("  rule:    {}\n", key.rule);
   if (!key.matters_with.empty())

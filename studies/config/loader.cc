@@ -45,6 +45,7 @@ class Reader {
       take(key, *parsed_literal(key.preset).get("v"), default_place, false, {});
   }
   void resolve_shape();
+  void resolve_taxels();
   void resolve_card();
   void check_continuum_law();
   /// Files named by a value are relative to `base`: the configuration file's folder.
@@ -189,6 +190,21 @@ void Reader::resolve_shape() {
   }
 }
 
+/// The skin on the finger.
+void Reader::resolve_taxels() {
+  Config& config = loaded_.config;
+  try {
+    if (config.taxels.has_skin())
+      lay_taxels(config.taxels, config.press.geometry, config.press.hardware.skin);
+  } catch (const meshes::InvalidInput& error) {
+    // Else its file cannot be read.
+    const bool of_taxels = error.violations().front().key == "sensor.taxels";
+    append(problems_, (of_taxels ? loaded_.locate(error.violations())
+                                 : refused_file(loaded_, "sensor.taxels", error))
+                          .violations());
+  }
+}
+
 /// What the card says takes the place of defaults.
 void Reader::resolve_card() {
   const Config& config = loaded_.config;
@@ -253,6 +269,8 @@ LoadedConfig Reader::finish() {
   if (config.shape == ShapeKind::dome || !press.geometry.is_dome()) {
     append(broken, press.geometry.violations());
     append(broken, protocol.violations(press.geometry));
+    if (broken.empty()) resolve_taxels();
+    append(broken, press.hardware.skin.violations());
   }
   const ConfigError located = loaded_.locate(broken);
   for (const meshes::Violation& problem : located.violations()) {

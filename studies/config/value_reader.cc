@@ -227,6 +227,36 @@ Value read_texts(const Key& key, const toml::node& node) {
   return value;
 }
 
+bool is_choice(const Key& key, const std::string& word) {
+  return std::ranges::any_of(key.choices,
+                             [&](const Choice& choice) { return choice.word == word; });
+}
+
+Value read_word(const Key& key, const toml::node& node) {
+  std::vector<std::string> words;
+  for (const Choice& choice : key.choices) words.push_back(choice.word);
+  const auto* text = node.as_string();
+  if (text == nullptr) refuse("must be one of " + key.allowed(), preset_advice(key));
+  const std::string& word = text->get();
+  const bool known = std::ranges::find(words, word) != words.end();
+  if (!known && (key.kind == Kind::choice || word.empty())) {
+    refuse("must be one of " + key.allowed(),
+           "did you mean \"" + nearest_word(word, words) + "\"?");
+  }
+  Value value;
+  value.word = word;
+  return value;
+}
+
+/// The whole number of a field without unit.
+double read_count(const Field& field, const toml::node& node) {
+  const auto count = node.value_exact<std::int64_t>();
+  if (!count || *count < 1 || *count > 10000)
+    refuse(field.name + " must be a whole number from 1 to 10000",
+           "write e.g. " + field.name + " = " + field.example);
+  return double(*count);
+}
+
 /// "fit", "0.1 mm/N", or with its standard deviation "0.1 +- 0.02 mm/N": 1 for fit, value,
 /// deviation.
 std::array<double, 3> read_field(const Field& field, const toml::node& node) {
@@ -260,8 +290,12 @@ Value read_fields(const Key& key, const toml::node& node) {
   std::vector<std::string> names;
   for (const Field& field : key.fields) names.push_back(field.name);
   const auto* table = node.as_table();
+  if (key.or_file && !node.is_table()) return read_word(key, node);
   if (table == nullptr)
-    refuse("must be a table", "write e.g. {" + first.name + " = \"" + first.example + "\"}");
+    refuse("must be a table", "write e.g. {" + first.name + " = " + first.literal() + "}");
+  if (key.or_file && table->empty())
+    refuse("the table must name something",
+           "write e.g. {" + first.name + " = " + first.literal() + "}");
   Value value;
   for (const auto& [name, entry] : *table) {
     const auto field = std::ranges::find(key.fields, name.str(), &Field::name);
@@ -275,31 +309,12 @@ Value read_fields(const Key& key, const toml::node& node) {
       value.word = file->get();
       continue;
     }
-    const std::array<double, 3> numbers = read_field(*field, entry);
+    const auto numbers = field->unit == "1"
+                             ? std::array<double, 3>{0.0, read_count(*field, entry), 0.0}
+                             : read_field(*field, entry);
     value.words.push_back(field->name);
     value.numbers.insert(value.numbers.end(), numbers.begin(), numbers.end());
   }
-  return value;
-}
-
-bool is_choice(const Key& key, const std::string& word) {
-  return std::ranges::any_of(key.choices,
-                             [&](const Choice& choice) { return choice.word == word; });
-}
-
-Value read_word(const Key& key, const toml::node& node) {
-  std::vector<std::string> words;
-  for (const Choice& choice : key.choices) words.push_back(choice.word);
-  const auto* text = node.as_string();
-  if (text == nullptr) refuse("must be one of " + key.allowed(), preset_advice(key));
-  const std::string& word = text->get();
-  const bool known = std::ranges::find(words, word) != words.end();
-  if (!known && (key.kind == Kind::choice || word.empty())) {
-    refuse("must be one of " + key.allowed(),
-           "did you mean \"" + nearest_word(word, words) + "\"?");
-  }
-  Value value;
-  value.word = word;
   return value;
 }
 
@@ -347,13 +362,14 @@ Reading read(const Key& key, const toml::node& node, const std::filesystem::path
     toml::array files;
     for (std::string& file : value.words) locate(file), files.push_back(file);
     reading.literal = toml_literal(files);
-  } else if (key.kind == Kind::fields && !value.word.empty()) {
+  } else if (key.kind == Kind::fields && node.is_table() && !value.word.empty()) {
     locate(value.word);
     toml::table whole = *node.as_table();
     for (const Field& field : key.fields)
       if (field.unit.empty()) whole.insert_or_assign(field.name, value.word);
     reading.literal = toml_literal(whole);
-  } else if (key.kind == Kind::source || key.kind == Kind::file) {
+  } else if (key.kind == Kind::source || key.kind == Kind::file ||
+             (key.kind == Kind::fields && node.is_string())) {
     if (!value.word.empty() && !is_choice(key, value.word)) locate(value.word);
     reading.literal = toml_literal(toml::value<std::string>(value.word));
   }

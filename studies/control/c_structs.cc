@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 namespace fingertip::studies::inline control {
@@ -76,6 +77,16 @@ const lattice::Command& checked(const lattice::Command& command) {
   return command;
 }
 
+// A skin is handed over as it is.
+static_assert(sizeof(fingertip_taxel) == sizeof(meshes::Taxel) &&
+              offsetof(fingertip_taxel, normal) == offsetof(meshes::Taxel, normal) &&
+              offsetof(fingertip_taxel, area) == offsetof(meshes::Taxel, area));
+static_assert(sizeof(fingertip_taxel_reading) == sizeof(meshes::TaxelReading) &&
+              offsetof(fingertip_taxel_reading, shear_u) ==
+                  offsetof(meshes::TaxelReading, shear_u) &&
+              offsetof(fingertip_taxel_reading, shear_v) ==
+                  offsetof(meshes::TaxelReading, shear_v));
+
 fingertip_task c_task(const lattice::ControlTask& task) {
   fingertip_task c{};
   c.size = sizeof c;
@@ -89,6 +100,8 @@ fingertip_task c_task(const lattice::ControlTask& task) {
   c.clearance = task.clearance;
   c.depth = task.depth;
   c.speed = task.speed;
+  c.taxel_count = task.taxels.size();
+  c.taxels = reinterpret_cast<const fingertip_taxel*>(task.taxels.data());
   return c;
 }
 
@@ -107,6 +120,8 @@ fingertip_measurement c_measurement(const lattice::Measurement& m,
     c.contact_radius = m.contact->radius;
     c.on_tip = c_wrench(m.contact->on_tip);
   }
+  c.taxel_count = m.taxels.size();
+  c.taxels = reinterpret_cast<const fingertip_taxel_reading*>(m.taxels.data());
   if (task.path) {
     const lattice::Target wanted = task.path(m.time);
     c.has_set_point = 1;

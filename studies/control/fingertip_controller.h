@@ -15,7 +15,7 @@ extern "C" {
 
 /// Version of everything in this file. It grows with every change; a program and a controller of
 /// different versions do not work together, and the program says so.
-#define FINGERTIP_CONTROLLER_ABI 1
+#define FINGERTIP_CONTROLLER_ABI 2
 
 /// Where the rod is.
 typedef struct fingertip_pose {
@@ -42,19 +42,36 @@ typedef struct fingertip_target {
   fingertip_twist acceleration; /* [m/s², rad/s²] */
 } fingertip_target;
 
+/// A sensor in the skin, on the undeformed finger.
+typedef struct fingertip_taxel {
+  double place[3];  /* in the rod's starting axes [m] */
+  double normal[3]; /* unit, out of the rubber */
+  double area;      /* of the surface that it stands for [m²] */
+} fingertip_taxel;
+
+/// What it feels, in axes of its surface: u, v and the outward normal are x, y, z turned along the
+/// shortest way from z to that normal. Of the obstacle on the skin [Pa].
+typedef struct fingertip_taxel_reading {
+  double normal_stress; /* positive where it is pressed */
+  double shear_u;
+  double shear_v;
+} fingertip_taxel_reading;
+
 /// What a controller knows before its first measurement.
 typedef struct fingertip_task {
-  uint32_t size;       /* of this struct [bytes] */
-  uint32_t abi;        /* FINGERTIP_CONTROLLER_ABI of the program */
-  double period;       /* between two commands [s] */
-  double inertia[36];  /* of the rod at its endpoint, 6 x 6 by rows: (force, torque) = inertia *
-                          (acceleration, angular acceleration) [kg, kg m, kg m²] */
-  double force_limit;  /* largest force along each axis [N] */
-  double torque_limit; /* largest torque about each axis [N m] */
-  double normal[3];    /* of the plane, unit, from the plane toward the rod */
-  double clearance;    /* between tip and plane at the start [m] */
-  double depth;        /* wanted indentation [m] */
-  double speed;        /* of the approach [m/s] */
+  uint32_t size;        /* of this struct [bytes] */
+  uint32_t abi;         /* FINGERTIP_CONTROLLER_ABI of the program */
+  double period;        /* between two commands [s] */
+  double inertia[36];   /* of the rod at its endpoint, 6 x 6 by rows: (force, torque) = inertia *
+                           (acceleration, angular acceleration) [kg, kg m, kg m²] */
+  double force_limit;   /* largest force along each axis [N] */
+  double torque_limit;  /* largest torque about each axis [N m] */
+  double normal[3];     /* of the plane, unit, from the plane toward the rod */
+  double clearance;     /* between tip and plane at the start [m] */
+  double depth;         /* wanted indentation [m] */
+  double speed;         /* of the approach [m/s] */
+  uint64_t taxel_count; /* of the skin (sensor.taxels); 0: there is none */
+  const fingertip_taxel* taxels; /* valid during the call only */
 } fingertip_task;
 
 /// What the controller gets once per period.
@@ -72,6 +89,8 @@ typedef struct fingertip_measurement {
   int32_t has_set_point;      /* 1: the task has a way to follow, and set_point is on it */
   int32_t reserved;           /* 0 */
   fingertip_target set_point; /* at `time`: the approach at the task's speed, or its stages */
+  uint64_t taxel_count;       /* as in the task */
+  const fingertip_taxel_reading* taxels; /* in the task's order; valid during the call only */
 } fingertip_measurement;
 
 /// What `fingertip_command.kind` may be.

@@ -111,14 +111,17 @@ std::string hello_line(const lattice::ControlTask& task, double timeout, bool re
     for (int j = 0; j < 6; ++j) row.push_back(task.inertia(i, j));
     inertia.push_back(row);
   }
-  const ordered_json order = {{"period", task.period},
-                              {"inertia", inertia},
-                              {"force_limit", task.force_limit},
-                              {"torque_limit", task.torque_limit},
-                              {"normal", list(task.normal)},
-                              {"clearance", task.clearance},
-                              {"depth", task.depth},
-                              {"speed", task.speed}};
+  ordered_json order = {{"period", task.period},
+                        {"inertia", inertia},
+                        {"force_limit", task.force_limit},
+                        {"torque_limit", task.torque_limit},
+                        {"normal", list(task.normal)},
+                        {"clearance", task.clearance},
+                        {"depth", task.depth},
+                        {"speed", task.speed}};
+  for (const meshes::Taxel& taxel : task.taxels)
+    order["taxels"].push_back(
+        {{"place", list(taxel.place)}, {"normal", list(taxel.normal)}, {"area", taxel.area}});
   return ordered_json{
       {"message", "hello"}, {"protocol", protocol_name}, {"version", control_protocol_version},
       {"resumed", resumed}, {"timeout", timeout},        {"task", order}}
@@ -142,6 +145,8 @@ std::string measurement_line(const lattice::Measurement& m, const lattice::Contr
                        {"force", list(m.contact->on_tip.force)},
                        {"torque", list(m.contact->on_tip.torque)}};
   }
+  for (const meshes::TaxelReading& taxel : m.taxels)
+    line["taxels"].push_back({taxel.normal_stress, taxel.shear_u, taxel.shear_v});
   if (task.path) line["set_point"] = object(task.path(m.time));
   return line.dump();
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/algorithm/string/predicate.hpp>
 #include <ostream>
@@ -13,7 +14,6 @@
 #include "studies/exchange/texts/texts.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
-#include "studies/fmu/fmu_variables.h"
 #include "studies/jobs/digest.h"
 #include "studies/jobs/provenance.h"
 #include "studies/presses/press_setup.h"
@@ -27,8 +27,8 @@ namespace {
 constexpr const char* identifier = "fingertip_fmu";  ///< of the shared object
 
 /// Sections that a finger depends on which somebody else moves.
-constexpr std::array sections_of_a_finger = {"geometry", "rubber",   "lattice", "rod",
-                                             "press",    "obstacle", "run"};
+constexpr std::array sections_of_a_finger = {"geometry", "rubber", "lattice",  "rod",
+                                             "sensor",   "press",  "obstacle", "run"};
 
 /// The file that a key names, absolute; empty where it names none.
 fs::path file_of(const Config& config, const std::string& key) {
@@ -36,6 +36,7 @@ fs::path file_of(const Config& config, const std::string& key) {
   if (key == "geometry.file") return config.solid.file;
   if (key == "lattice.constants") return config.constants_file;
   if (key == "rubber.card") return config.card;
+  if (key == "sensor.taxels") return config.taxels.file;
   return {};
 }
 
@@ -62,6 +63,9 @@ std::string settings_of(const LoadedConfig& loaded, std::vector<FmuExport::File>
         literal = fmt::format("\"tip_radius/{:.0f}\"", *loaded.config.spacing_divisor);
       if (const fs::path file = file_of(loaded.config, key.full_name()); !file.empty()) {
         files.push_back(packed(file, loaded.config.solid.up));
+        // Another folder may have a file of that name.
+        if (std::ranges::count(files, files.back().name, &FmuExport::File::name) > 1)
+          files.back().name.insert(0, key.name + "_");
         literal = '"' + files.back().name + '"';
       }
       keys += key.name + " = " + literal + "\n";
@@ -73,8 +77,8 @@ std::string settings_of(const LoadedConfig& loaded, std::vector<FmuExport::File>
 
 std::string description_of(const FmuExport& unit) {
   std::string variables, outputs;
-  for (std::size_t i = 0; i < fmu_variables.size(); ++i) {
-    const FmuVariable& variable = fmu_variables[i];
+  for (std::size_t i = 0; i < unit.variables.size(); ++i) {
+    const FmuVariable& variable = unit.variables[i];
     variables += fmt::format(
         "    <ScalarVariable name=\"{}\" valueReference=\"{}\" causality=\"{}\" "
         "variability=\"continuous\" description=\"{}\"><Real unit=\"{}\"{}/></ScalarVariable>\n",
@@ -104,13 +108,14 @@ FmuExport fmu_export(const LoadedConfig& loaded) {
   unit.settings = settings_of(loaded, unit.files);
   lattice::PressSetup setup = press_setup(loaded);
   unit.period = setup.controller.period;
+  unit.variables = fmu_variables(setup.hardware.skin.taxels.size());
   unit.description = description_of(unit);
   return unit;
 }
 
 std::string fmu_readme(const FmuExport& unit) {
   std::string variables;
-  for (const FmuVariable& variable : fmu_variables)
+  for (const FmuVariable& variable : unit.variables)
     variables +=
         fmt::format("| `{}` | {} | {} | {} |\n", variable.name, variable.input ? "input" : "output",
                     variable.unit, variable.description);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "studies/config/loader.h"
+#include "studies/fmu/fmu_variables.h"
 
 namespace fingertip::studies::inline exchange {
 
@@ -17,7 +18,8 @@ struct FmuExport {
   std::string settings;     ///< parameters.toml among its resources
   std::string description;  ///< modelDescription.xml
   std::vector<File> files;  ///< that the settings name
-  double period = 0.0;      ///< of the control loop, the step that it suggests [s]
+  std::vector<FmuVariable> variables;
+  double period = 0.0;  ///< of the control loop, the step that it suggests [s]
 };
 
 /// Of a finger that is pressed by whoever steps it. Throws ConfigError for what free_press refuses.

@@ -99,6 +99,12 @@ struct BudgetEntry {
 };
 FINGERTIP_FIELDS(BudgetEntry, name, depths, total, parts, rest);
 
+/// A press of a study whose contact is drawn, and its continuum.
+struct DrawnEntry {
+  std::string name, folder, continuum;
+};
+FINGERTIP_FIELDS(DrawnEntry, name, folder, continuum);
+
 /// A case on variants.
 struct StudyEntry {
   std::string x_label;
@@ -106,8 +112,13 @@ struct StudyEntry {
   std::vector<SeriesEntry> series;
   std::vector<ContinuumEntry> continua;
   std::vector<BudgetEntry> budgets;
+  std::vector<DrawnEntry> drawn;
 };
-FINGERTIP_FIELDS(StudyEntry, x_label, count, not_converged, series, continua, budgets);
+consteval auto fields_of(const StudyEntry*) {
+  return FINGERTIP_ALL_MEMBERS(StudyEntry, x_label, count, not_converged, series, continua, budgets,
+                               drawn)
+      .if_known("drawn");
+}
 
 /// A fit of a case.
 struct FitEntry {

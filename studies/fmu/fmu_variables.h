@@ -2,44 +2,55 @@
 #pragma once
 
 #include <array>
-#include <string_view>
+#include <string>
+#include <vector>
 
 namespace fingertip::studies::inline fmu {
 
 struct FmuVariable {
-  std::string_view name, unit, description;
+  std::string name, unit, description;
   bool input = false;
 };
 
-inline constexpr std::array fmu_variables{
-    FmuVariable{"force_x", "N", "on the rod at its endpoint, held until it is set again", true},
-    FmuVariable{"force_y", "N", "", true},
-    FmuVariable{"force_z", "N", "", true},
-    FmuVariable{"torque_x", "N.m", "on the rod about its endpoint", true},
-    FmuVariable{"torque_y", "N.m", "", true},
-    FmuVariable{"torque_z", "N.m", "", true},
-    FmuVariable{"position_x", "m", "of the rod's endpoint, in the rod's starting axes"},
-    FmuVariable{"position_y", "m", ""},
-    FmuVariable{"position_z", "m", ""},
-    FmuVariable{"orientation_w", "1", "since the start, a unit quaternion"},
-    FmuVariable{"orientation_x", "1", ""},
-    FmuVariable{"orientation_y", "1", ""},
-    FmuVariable{"orientation_z", "1", ""},
-    FmuVariable{"velocity_x", "m/s", "of the endpoint"},
-    FmuVariable{"velocity_y", "m/s", ""},
-    FmuVariable{"velocity_z", "m/s", ""},
-    FmuVariable{"angular_velocity_x", "rad/s", ""},
-    FmuVariable{"angular_velocity_y", "rad/s", ""},
-    FmuVariable{"angular_velocity_z", "rad/s", ""},
-    FmuVariable{"bond_force_x", "N", "of the tip on the rod"},
-    FmuVariable{"bond_force_y", "N", ""},
-    FmuVariable{"bond_force_z", "N", ""},
-    FmuVariable{"bond_torque_x", "N.m", "of the tip on the rod, about the endpoint"},
-    FmuVariable{"bond_torque_y", "N.m", ""},
-    FmuVariable{"bond_torque_z", "N.m", ""},
-    FmuVariable{"indentation", "m", "travel since first touch, negative before"},
-    FmuVariable{"normal_force", "N", "of the tip on the rod along the obstacle's normal"},
-};
+/// Of a finger with so many taxels in its skin (sensor.taxels).
+inline std::vector<FmuVariable> fmu_variables(std::size_t taxels) {
+  std::vector<FmuVariable> all{
+      {"force_x", "N", "on the rod at its endpoint, held until it is set again", true},
+      {"force_y", "N", "", true},
+      {"force_z", "N", "", true},
+      {"torque_x", "N.m", "on the rod about its endpoint", true},
+      {"torque_y", "N.m", "", true},
+      {"torque_z", "N.m", "", true},
+      {"position_x", "m", "of the rod's endpoint, in the rod's starting axes"},
+      {"position_y", "m", ""},
+      {"position_z", "m", ""},
+      {"orientation_w", "1", "since the start, a unit quaternion"},
+      {"orientation_x", "1", ""},
+      {"orientation_y", "1", ""},
+      {"orientation_z", "1", ""},
+      {"velocity_x", "m/s", "of the endpoint"},
+      {"velocity_y", "m/s", ""},
+      {"velocity_z", "m/s", ""},
+      {"angular_velocity_x", "rad/s", ""},
+      {"angular_velocity_y", "rad/s", ""},
+      {"angular_velocity_z", "rad/s", ""},
+      {"bond_force_x", "N", "of the tip on the rod"},
+      {"bond_force_y", "N", ""},
+      {"bond_force_z", "N", ""},
+      {"bond_torque_x", "N.m", "of the tip on the rod, about the endpoint"},
+      {"bond_torque_y", "N.m", ""},
+      {"bond_torque_z", "N.m", ""},
+      {"indentation", "m", "travel since first touch, negative before"},
+      {"normal_force", "N", "of the tip on the rod along the obstacle's normal"},
+  };
+  for (std::size_t i = 1; i <= taxels; ++i) {
+    const std::string taxel = "taxel_" + std::to_string(i);
+    all.push_back({taxel + "_normal_stress", "Pa", "positive where it is pressed"});
+    for (const char* axis : {"u", "v"})
+      all.push_back({taxel + "_shear_" + axis, "Pa", "of the obstacle on the skin"});
+  }
+  return all;
+}
 inline constexpr std::size_t fmu_inputs = 6;
 
 /// File of the settings among the unit's resources.

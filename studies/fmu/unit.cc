@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "lattice/press/press_task.h"
 #include "studies/fmu/fmi2.h"
@@ -45,7 +46,7 @@ class Unit {
   }
 
   fmi2Status get(const fmi2ValueReference* references, std::size_t count, double* values) {
-    const std::array<double, fmu_variables.size()> all = outputs();
+    const std::vector<double> all = outputs();
     for (std::size_t i = 0; i < count; ++i) {
       if (references[i] >= all.size())
         return refuse("there is no real variable " + std::to_string(references[i]));
@@ -103,12 +104,11 @@ class Unit {
   lattice::VirtualFinger finger_;
   std::array<double, fmu_inputs> inputs_{};
 
-  std::array<double, fmu_variables.size()> outputs() const {
+  std::vector<double> outputs() const {
     const lattice::Measurement seen = finger_.read();
-    std::array<double, fmu_variables.size()> all{};
-    auto next = std::ranges::copy(inputs_, all.begin()).out;
+    std::vector<double> all(inputs_.begin(), inputs_.end());
     const auto add = [&](const auto& vector) {
-      for (const double component : vector) *next++ = component;
+      for (const double component : vector) all.push_back(component);
     };
     const Eigen::Quaterniond& q = seen.pose.orientation;
     add(seen.pose.position);
@@ -117,9 +117,11 @@ class Unit {
     add(seen.twist.angular_velocity);
     add(seen.wrench.force);
     add(seen.wrench.torque);
-    *next++ = way_.indentation(finger_.rod_body().endpoint, seen.pose.position,
-                               setup_.protocol.clearance);
-    *next++ = finger_.finger().bond().force.dot(way_.plane.normal);
+    all.push_back(way_.indentation(finger_.rod_body().endpoint, seen.pose.position,
+                                   setup_.protocol.clearance));
+    all.push_back(finger_.finger().bond().force.dot(way_.plane.normal));
+    for (const meshes::TaxelReading& taxel : seen.taxels)
+      add(std::array{taxel.normal_stress, taxel.shear_u, taxel.shear_v});
     return all;
   }
 };

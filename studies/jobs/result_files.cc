@@ -26,7 +26,7 @@ bool is_marker(const fs::path& file) {
 bool is_run_file(const fs::path& file) {
   const fs::path name = file.filename();
   return name == "parameters.toml" || name == "manifest.json" || name == "log.txt" ||
-         name == "real_time.json" || name.string().front() == '.';
+         name == "real_time.json" || name == "taxels.csv" || name == "contact" || name.string().front() == '.';
 }
 
 nlohmann::ordered_json result_digests(const fs::path& folder) {

@@ -14,7 +14,8 @@ inline constexpr const char* marker_name = "finished.json";
 /// Written first: names the job that is, or was when it ended early, at work in a folder.
 inline constexpr const char* attempt_name = "unfinished.json";
 
-/// What belongs to the run itself: parameters.toml, manifest.json, log.txt and hidden files.
+/// What belongs to the run itself: parameters.toml, manifest.json, log.txt, what is made of the
+/// job's files and settings beside its own (taxels.csv, contact/), and hidden files.
 bool is_run_file(const std::filesystem::path& file);
 
 /// Every file of the job in `folder` by its name there, with its SHA-256; without what belongs to

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 
 #include "meshes/shape/meridian.h"
@@ -119,6 +120,8 @@ Json frame_json(const LiveFrame& frame, std::size_t rows) {
     json["contact_radius"] = picture.measured.contact->radius;
     json["force_error"] = picture.force_error;
   }
+  for (const meshes::TaxelReading& taxel : picture.measured.taxels)
+    json["taxels"].push_back({taxel.normal_stress, taxel.shear_u, taxel.shear_v});
   if (picture.hand_place) {
     json["hand"] = wrench_json(picture.hand);
     json["hand"]["place"] = vector_json(*picture.hand_place);
@@ -196,6 +199,15 @@ Json obstacle_json(const LiveScene& scene) {
   return {{"points", points}, {"quadrangles", mesh.quadrangles}};
 }
 
+/// Where the taxels are, seen along the rod, and the diameters of discs of their areas.
+Json taxels_json(const std::vector<meshes::Taxel>& taxels) {
+  Json list = Json::array();
+  for (const meshes::Taxel& taxel : taxels)
+    list.push_back({taxel.place.x(), taxel.place.y(),
+                    std::sqrt(4.0 * taxel.area * taxel.normal.z() / std::numbers::pi)});
+  return list;
+}
+
 }  // namespace
 
 std::string encode_scene(const LiveScene& scene) {
@@ -211,6 +223,7 @@ std::string encode_scene(const LiveScene& scene) {
                     {"held", held_json(scene.geometry)}}},
                   {"obstacle", obstacle_json(scene)},
                   {"limits", limits_json(scene.limits)},
+                  {"taxels", taxels_json(scene.taxels)},
                   {"masses", scene.masses},
                   {"springs", scene.springs},
                   {"period", scene.period},

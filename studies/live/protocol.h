@@ -45,6 +45,7 @@ struct LiveScene {
   meshes::Geometry geometry;
   meshes::Obstacle obstacle;
   LiveLimits limits;
+  std::vector<meshes::Taxel> taxels;  ///< of the skin; empty without one
   std::vector<std::array<int, 2>> springs;
   std::size_t masses = 0;
   double period = 0.0;                           ///< of the controller [s]

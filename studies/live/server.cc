@@ -57,6 +57,7 @@ LiveServer::LiveServer(Simulation& simulation, const Reference& reference, const
   scene.geometry = rig.setup().geometry;
   scene.obstacle = rig.setup().protocol.obstacle;
   scene.limits = rig.limits();
+  scene.taxels = rig.setup().hardware.skin.taxels;
   scene.springs = rig.boundary().springs();
   scene.masses = rig.boundary().size();
   scene.period = rig.period();

@@ -50,6 +50,9 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
   inputs["protocol"] = inputs_of(setup.protocol, moves);
   if (setup.integrator != lattice::Integrator::runge_kutta) drop(inputs, {"tolerance"});
   if (setup.integrator != lattice::Integrator::energy_controlled) drop(inputs, {"energy_bound"});
+  // Nobody asks it but people's own controllers; taxels.csv is made of what is computed anyway.
+  if (!setup.make_controller)
+    drop(inputs["hardware"], {"skin", "taxel", "taxel_rate", "taxel_latency"});
   if (setup.protocol.mode != meshes::DriveMode::pid) {
     drop(inputs, {"rod", "controller_identity", "follows_path", "hardware"});
     // Steps divide it, whatever moves the rod.

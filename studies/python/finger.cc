@@ -155,6 +155,17 @@ void add_values(py::module_& module) {
           "Of the tip on the rod, about the endpoint [N m].")
       .def_readonly("contact", &Measurement::contact,
                     "Contact; None without a tactile sensor (hardware.tactile).")
+      .def_property_readonly(
+          "taxels",
+          [](const Measurement& m) {
+            Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> rows(m.taxels.size(), 3);
+            for (std::size_t i = 0; i < m.taxels.size(); ++i)
+              rows.row(Eigen::Index(i)) << m.taxels[i].normal_stress, m.taxels[i].shear_u,
+                  m.taxels[i].shear_v;
+            return rows;
+          },
+          "A row for each taxel of the skin (sensor.taxels): normal stress, shear along u and v "
+          "[Pa].")
       .def("__repr__", [](const Measurement& m) {
         return py::str("Measurement(time={:.6g} s, force={} N)").format(m.time, m.wrench.force);
       });
@@ -197,6 +208,18 @@ void add_finger(py::module_& module) {
       .def_property_readonly(
           "normal", [](const Finger& finger) { return finger.task().normal; },
           "Of the plane, toward the rod.")
+      .def_property_readonly(
+          "taxels",
+          [](const Finger& finger) {
+            const std::vector<meshes::Taxel>& taxels = finger.task().taxels;
+            Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> rows(taxels.size(), 7);
+            for (std::size_t i = 0; i < taxels.size(); ++i)
+              rows.row(Eigen::Index(i)) << taxels[i].place.transpose(),
+                  taxels[i].normal.transpose(), taxels[i].area;
+            return rows;
+          },
+          "A row for each taxel of the skin: its place [m] and outward normal on the undeformed "
+          "finger, and the area that it stands for [m²].")
       .def_property_readonly("time_step", &Finger::time_step, "Of the integration [s].");
 }
 

@@ -123,32 +123,11 @@ Panel force_panel(const std::vector<ComparedCurve>& curves) {
   return panel;
 }
 
-/// The motions of the plane that followed presses, of all runs together.
-std::vector<PlaneMotion> motions_of(const std::vector<ComparedCurve>& curves) {
-  std::vector<PlaneMotion> motions;
-  for (const ComparedCurve& curve : curves)
-    for (const PlaneMotion& motion : plane_motions(moved_along_plane(curve.response)))
-      if (std::ranges::none_of(motions, [&](const PlaneMotion& known) {
-            return known.way.value == motion.way.value;
-          }))
-        motions.push_back(motion);
-  return motions;
-}
-
-bool makes(SampleRange samples, const PlaneMotion& motion) {
-  return std::ranges::any_of(plane_motions(samples), [&](const PlaneMotion& made) {
-    return made.way.value == motion.way.value;
-  });
-}
-
-Panel motion_panel(const std::vector<ComparedCurve>& curves, const PlaneMotion& motion) {
-  Panel panel{.x_label = motion.way.label(), .y_label = motion.load.label(), .key = above};
-  for (const ComparedCurve& compared : curves)
-    if (const auto moved = moved_along_plane(compared.response); makes(moved, motion))
-      panel.series.push_back(curve(compared.label, "", compared.style, moved,
-                                   in(motion.way.unit, motion.way.value),
-                                   in(motion.load.unit, motion.load.value)));
-  return panel;
+std::vector<RunContact> runs_of(const Comparison& comparison) {
+  std::vector<RunContact> runs;
+  for (const ComparedCurve& curve : comparison.curves)
+    runs.push_back({curve.label, curve.style, &curve.response, &curve.contact});
+  return runs;
 }
 
 /// What the errors of both leave open of a difference, of one of them where the other is unknown;
@@ -238,17 +217,17 @@ std::string summary_sentence(const Comparison& comparison) {
 }
 
 /// Loads at poses that every run has whose plane moved on at one depth.
-Table motion_table(const std::vector<ComparedCurve>& curves, const PlaneMotion& motion) {
+Table motion_table(const std::vector<RunContact>& runs, const PlaneMotion& motion) {
   Table table{heads({std::string(motion.way.title) + "\n" + unit_name(motion.way.unit)})};
-  std::vector<std::pair<const ComparedCurve*, SampleRange>> moved;
-  for (const ComparedCurve& curve : curves)
-    if (const auto samples = moved_along_plane(curve.response); makes(samples, motion))
-      moved.emplace_back(&curve, samples.subspan(1));
+  std::vector<std::pair<const RunContact*, SampleRange>> moved;
+  for (const RunContact& run : runs)
+    if (const auto samples = moved_along_plane(*run.response); makes(samples, motion))
+      moved.emplace_back(&run, samples.subspan(1));
   if (moved.size() < 2) return table;
-  for (const auto& [curve, samples] : moved) table.header.emplace_back(curve->label);
+  for (const auto& [run, samples] : moved) table.header.emplace_back(run->label);
   for (const meshes::PressSample& wanted : moved.front().second) {
     std::vector<Cell> row{number(motion.way.unit(wanted.*motion.way.value))};
-    for (const auto& [curve, samples] : moved)
+    for (const auto& [run, samples] : moved)
       if (const auto found = std::ranges::find_if(
               samples, [&](const meshes::PressSample& sample) { return wanted.is_beside(sample); });
           found != samples.end())
@@ -290,21 +269,15 @@ std::string screen_text(const Comparison& comparison, const std::vector<Chapter>
     if (const double l2 = overall(curves[i], curves.front()).l2; !std::isnan(l2))
       text += fmt::format("relative L2 difference of {}: {:.2f} %\n", curves[i].label, 100.0 * l2);
   for (const Chapter& chapter : chapters) text += tables_text(chapter, {"contact"});
-  for (const PlaneMotion& motion : motions_of(curves))
-    if (const Table table = motion_table(curves, motion); !table.rows.empty())
+  const std::vector<RunContact> runs = runs_of(comparison);
+  for (const PlaneMotion& motion : motions_of(runs))
+    if (const Table table = motion_table(runs, motion); !table.rows.empty())
       text += motion.load.label(" at full depth") + "\n" + table_text(table);
   const Table following = following_table(comparison);
   if (!following.rows.empty()) text += "after the first loading\n" + table_text(following);
   for (const ComparisonRemark& remark : comparison.remarks)
     text += (remark.meaningless ? "WARNING: " : "note: ") + remark.text + "\n";
   return text;
-}
-
-ContactComparison contacts_of(const Comparison& comparison) {
-  std::vector<RunContact> runs;
-  for (const ComparedCurve& curve : comparison.curves)
-    runs.push_back({curve.label, curve.style, &curve.response, &curve.contact});
-  return compared_contacts(std::move(runs));
 }
 
 /// A row per depth, of each run but the first a column per difference.
@@ -349,14 +322,7 @@ Page comparison_page(const Comparison& comparison, const ContactComparison& cont
     chapter.figures.push_back(
         {"comparison_difference", 760, 360, 1, {difference_panel(comparison)}});
   chapter.tables["differences"] = difference_table(comparison);
-  for (const PlaneMotion& motion : motions_of(curves)) {
-    const bool twist = motion.way.value == &meshes::PressSample::twist;
-    chapter.figures.push_back({twist ? "comparison_twist" : "comparison_lateral",
-                               760,
-                               420,
-                               1,
-                               {motion_panel(curves, motion)}});
-  }
+  append_motions(runs_of(comparison), "comparison_lateral", "comparison_twist", chapter.figures);
   if (const Panel following = following_panel(comparison); following.series.size() > 1)
     chapter.figures.push_back({"comparison_time", 760, 420, 1, {following}});
   Page page;
@@ -380,7 +346,7 @@ Page comparison_page(const Comparison& comparison, const ContactComparison& cont
 ComparisonResult write_comparison(const std::vector<fs::path>& runs, const fs::path& out_folder) {
   FolderReader reader;
   const Comparison comparison = read_comparison(runs, reader);
-  const ContactComparison contacts = contacts_of(comparison);
+  const ContactComparison contacts = compared_contacts(runs_of(comparison));
   const Page page = comparison_page(comparison, contacts, reader);
   fs::create_directories(out_folder);
   publish(page, out_folder, "comparison.html");

@@ -171,9 +171,21 @@ class PageMaker {
 
   /// A study has its presses to show, and nothing of the core case.
   Page study_page() {
+    Makers chapters{[this] { return variants_chapter(run_); }};
+    for (std::size_t i = 0; i < run_.drawn.size(); ++i) {
+      const DrawnPress& press = run_.drawn[i];
+      const std::vector<RunContact> both{
+          {model_label("reference"), model_style("reference"), &press.reference,
+           &press.reference_contact, &press.reference_taxels},
+          {"lattice", numbered_style(1), &press.response, &press.contact, &press.taxels}};
+      chapters.emplace_back([both, &press, i] {
+        return contact_chapter(compared_contacts(both), press.name, i + 1);
+      });
+      chapters.emplace_back([both, &press, i] { return skin_chapter(both, press.name, i + 1); });
+    }
     return made("Soft fingertip: a study of lattices",
                 "A study of mass-spring fingertips against a continuum of the same specimen",
-                {[&] { return variants_chapter(run_); }});
+                chapters);
   }
 
   /// Fits have neither presses of models nor a continuum of their own.
@@ -229,6 +241,7 @@ class PageMaker {
         "A mass-spring fingertip pressed against a plane",
         [&] { return joined(forces, control_answer(presses)); },
         {[&] { return press_chapter(press.response, press.trace); }, [&] { return own_contact(); },
+         [&] { return own_skin(run_.response); },
          [&] { return program_chapter(press.response, press); },
          [&] {
            return real_time_chapter(
@@ -242,6 +255,10 @@ class PageMaker {
         compared_contacts({{"", numbered_style(0), &run_.response, &run_.contact}}));
   }
 
+  Chapter own_skin(const meshes::PressResponse& response) {
+    return skin_chapter({{"", numbered_style(0), &response, &run_.contact, &run_.taxels}});
+  }
+
   /// The run of a static `press`.
   Page static_page() {
     const std::vector<MovingPress> presses{own_press()};
@@ -249,6 +266,7 @@ class PageMaker {
                 "A mass-spring fingertip in equilibrium with what it touches",
                 [&] { return press_answer(run_.response, presses.front().summary); },
                 {[&] { return press_chapter(run_.response); }, [&] { return own_contact(); },
+                 [&] { return own_skin(run_.response); },
                  [&] { return program_chapter(run_.response, presses.front()); },
                  [&] { return sliding_chapter(run_.response); },
                  [&] { return snapshots_chapter(presses); }});
@@ -260,6 +278,7 @@ class PageMaker {
         "Soft fingertip: the continuum", "A deal.II continuum pressed on its obstacle",
         [&] { return press_answer(run_.reference, {}); },
         {[&] { return force_chapter(run_); }, [&] { return contact_chapter(run_); },
+         [&] { return own_skin(run_.reference); },
          [&] { return program_chapter(run_.reference, {}); },
          [&] { return sliding_chapter(run_.reference); }, [&] { return continuum_chapter(run_); },
          [&] { return pictures_chapter(run_); }, [&] { return cost_chapter(run_); }});

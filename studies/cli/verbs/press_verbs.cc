@@ -25,6 +25,7 @@
 #include "studies/presses/press_setup.h"
 #include "studies/presses/program_summary.h"
 #include "studies/presses/reference_job.h"
+#include "studies/presses/taxel_record.h"
 #include "studies/presses/tracking.h"
 #include "studies/report/chapters/press/press_chapters.h"
 #include "studies/report/page/terminal.h"
@@ -285,11 +286,13 @@ int run_press(const CommandLine& line) {
     auto response = meshes::PressResponse::read_csv(folder / "response.csv");
     session.expect_later(0.0);
     const auto error = find_force_error(source, setup, session, told, response);
+    const auto felt = write_contact_files(folder, setup);
     if (!line.quiet) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
       print_response(response, setup.protocol);
       if (error) fmt::print("{}\n", error_words(*error));
+      if (!felt.empty()) fmt::print("{}\n", taxel_words(felt));
       print_press_facts(summary, result.reused);
       print_sources(loaded);
     }
@@ -340,6 +343,7 @@ int run_reference(const CommandLine& line) {
     const bool press = reference.analysis != fem_reference::Analysis::modes;
     const auto response =
         press ? meshes::PressResponse::read_csv(folder / "response.csv") : meshes::PressResponse();
+    const auto felt = write_contact_files(folder, loaded.config.press);
     const WorstError worst = worst_error(response.samples());
     const bool reached = !reference.estimate_error || !(worst.relative > reference.tolerance);
     if (!line.quiet) {
@@ -348,6 +352,7 @@ int run_reference(const CommandLine& line) {
         print_response(response, reference.protocol);
         print_program(stage_entries(reference.protocol, response), meshes::unknown,
                       reference.protocol.goes_back() ? work_along(response) : meshes::unknown);
+        if (!felt.empty()) fmt::print("{}\n", taxel_words(felt));
         if (reference.estimate_error) print_accuracy(folder, reference, worst);
       } else {
         print_frequencies(folder);

@@ -14,6 +14,7 @@
 #include "lattice/press/press_setup.h"
 #include "meshes/base/names.h"
 #include "studies/config/shapes/solid_file.h"
+#include "studies/config/shapes/taxel_file.h"
 
 namespace fingertip::studies::inline config::inline keys {
 
@@ -218,6 +219,7 @@ struct Config {
   SolidFile solid;                 ///< only for ShapeKind::solid
   std::optional<double> endpoint;  ///< of a profile or solid, on the axis [m]
   ControllerSettings controller;
+  TaxelLayout taxels;  ///< press.hardware.skin has them
   ConstantsSource constants = ConstantsSource::automatic;
   std::filesystem::path constants_file;           ///< absolute; only for ConstantsSource::file
   std::optional<lattice::Kinematics> kinematics;  ///< as asked for; empty: the model's default

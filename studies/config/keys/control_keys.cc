@@ -8,10 +8,10 @@ namespace {
 
 /// Noise and resolution of one kind of sensor.
 void add_sensor(std::vector<Key>& keys, const char* noise, const char* resolution, const char* unit,
-                const std::string& what,
-                lattice::SensorChannel lattice::HardwareSettings::*channel) {
+                const std::string& what, lattice::SensorChannel lattice::HardwareSettings::*channel,
+                const char* section = "hardware") {
   const auto add = [&](const char* name, const std::string& help, auto member) {
-    keys.push_back(quantity("hardware", name, unit, unit, not_negative, help.c_str(),
+    keys.push_back(quantity(section, name, unit, unit, not_negative, help.c_str(),
                             at(&Config::press, &lattice::PressSetup::hardware, channel, member)));
   };
   add(noise, "standard deviation of the white noise of the sensor of " + what,
@@ -189,6 +189,55 @@ std::vector<Key> hardware_keys() {
   keys.push_back(plain("hardware", "seed", {0, 1e9, true},
                        "of the sensors' noise: the same seed gives the same run",
                        member(&HardwareSettings::seed)));
+  return keys;
+}
+
+std::vector<Key> sensor_keys() {
+  using lattice::HardwareSettings;
+  const auto member = [](auto... way) {
+    return at(&Config::press, &lattice::PressSetup::hardware, way...);
+  };
+  const auto layout = [](auto way) { return at(&Config::taxels, way); };
+  Key taxels;
+  taxels.section = "sensor";
+  taxels.name = "taxels";
+  taxels.kind = Kind::fields;
+  taxels.or_file = true;
+  taxels.preset = "\"none\"";
+  taxels.choices = {{"none", "no skin"}};
+  taxels.fields = {{"rings", "1", "4", "around the pole, sensor.pitch apart"},
+                   {"per_ring", "1", "8", "taxels in each"}};
+  taxels.help = "where the taxels are: rings, or a CSV file with columns x [mm],y [mm],z [mm]";
+  taxels.rule = "on the surface that may touch, not in the bond";
+  taxels.related = {"geometry.shape"};
+  taxels.assign = [](Config& config, const Value& value) {
+    TaxelLayout& taken = config.taxels;
+    taken.file = value.word == "none" ? "" : value.word;
+    taken.rings = taken.per_ring = 0;
+    for (std::size_t i = 0; i < value.words.size(); ++i)
+      (value.words[i] == "rings" ? taken.rings : taken.per_ring) = int(value.numbers[3 * i + 1]);
+  };
+  std::vector<Key> keys = {
+      taxels,
+      quantity("sensor", "pitch", "mm", "m", positive,
+               "between rings along the surface; auto: a tenth of tip_radius",
+               layout(&TaxelLayout::pitch)),
+      quantity("sensor", "footprint", "mm", "m", positive,
+               "diameter of the disc over which a taxel averages; auto: a tenth of tip_radius",
+               layout(&TaxelLayout::footprint)),
+      with_rule(quantity("sensor", "depth", "mm", "m", not_negative,
+                         "of the taxels below the surface, as in a half space",
+                         member(&HardwareSettings::skin, &meshes::TaxelSkin::depth)),
+                "0 or at least a tenth of the footprint", {"sensor.footprint"}),
+  };
+  add_sensor(keys, "noise", "resolution", "Pa", "a taxel's stresses", &HardwareSettings::taxel,
+             "sensor");
+  keys.push_back(quantity("sensor", "rate", "Hz", "Hz", not_negative,
+                          "of new readings, taken when the controller asks; 0: each time",
+                          member(&HardwareSettings::taxel_rate)));
+  keys.push_back(quantity("sensor", "latency", "ms", "s", not_negative,
+                          "age of a reading, besides hardware.sensor_latency",
+                          member(&HardwareSettings::taxel_latency)));
   return keys;
 }
 

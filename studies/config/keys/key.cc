@@ -25,7 +25,7 @@ std::string Key::description() const {
     case Kind::file: return "path";
     case Kind::texts: return "list of texts";
     case Kind::files: return "list of paths";
-    case Kind::fields: return "table";
+    case Kind::fields: return or_file ? "table or path" : "table";
   }
   return "";
 }
@@ -54,7 +54,8 @@ std::string Key::allowed() const {
     text = (range.minimum_allowed ? ">= " : "> ") + meshes::to_text(range.minimum) + suffix;
   if (above) text += (below ? " and <= " : "<= ") + meshes::to_text(range.maximum) + suffix;
   for (const Choice& choice : choices) text += (text.empty() ? "" : " | ") + choice.word;
-  if (kind == Kind::source) text += " | path of a file";
+  if (kind == Kind::source || or_file) text += " | path of a file";
+  if (or_file) text += " | table";
   for (const std::string& other : {pattern, word})
     if (!other.empty()) text += (text.empty() ? "or " : ", or ") + other;
   return text;
@@ -70,6 +71,7 @@ const std::vector<Section>& sections() {
       {"obstacle", "The rigid obstacle that the finger is pressed against"},
       {"controller", "The 6-degree-of-freedom controller that moves the rod in mode pid"},
       {"hardware", "Sensors and actuators between controller and rod; the defaults are perfect"},
+      {"sensor", "A skin of taxels on the finger, for controllers and taxels.csv"},
       {"grasp", "Two fingers that lift a rigid block, with press.contact, press.friction"},
       {"reference", "The continuum (finite elements)"},
       {"calibration", "How spring constants are fitted"},

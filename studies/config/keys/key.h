@@ -27,7 +27,7 @@ enum class Kind {
   file,         ///< path of a file, or an empty text for none
   texts,        ///< list of texts
   files,        ///< list of paths of files
-  fields,       ///< table of Key::fields
+  fields,       ///< table of Key::fields, or with Key::or_file the path of a file
 };
 
 using meshes::name, meshes::values;
@@ -55,16 +55,20 @@ constexpr auto names_of(Kind) {
 struct Value {
   double number = 0.0;          ///< quantity, number, integer, boolean (0 or 1)
   std::vector<double> numbers;  ///< quantities, terms, numbers; six of a stage as in PressStage;
-                                ///< three of a field: 1 for "fit", the quantity, its deviation
+                                ///< three of a field: 1 for "fit", the quantity, its deviation; or
+                                ///< 0, the whole number, 0
   std::string word;  ///< choice, source, text, file, also of a field; for a quantity the word given
                      ///< instead of one
   std::vector<std::string> words;  ///< texts, files; of fields the names given
 };
 
 /// An entry of a key that is a table: "fit", a quantity, or a quantity with its standard deviation;
-/// without a unit the path of a file, of which a table has one.
+/// of unit "1" a whole number from 1 on; without a unit the path of a file, of which a table has
+/// one.
 struct Field {
   std::string name, unit, example, help;
+  /// The example as TOML.
+  std::string literal() const { return unit == "1" ? example : '"' + example + '"'; }
 };
 
 struct Choice {
@@ -92,6 +96,7 @@ struct Key {
   std::vector<Field> fields;
   std::size_t length = 0;            ///< of a list of quantities; 0: any
   bool number_first = false;         ///< of terms
+  bool or_file = false;              ///< of fields
   std::string word;                  ///< accepted instead of a value: "auto", "touch"
   std::string pattern;               ///< of texts accepted as well: "tip_radius/N", N a number > 0
   std::string help;                  ///< one line

@@ -40,8 +40,8 @@ const std::vector<Key>& key_table() {
   static const std::vector<Key> table = [] {
     std::vector<Key> keys;
     for (const auto& part : {specimen_keys(), lattice_keys(), press_keys(), obstacle_keys(),
-                             controller_keys(), hardware_keys(), grasp_keys(), reference_keys(),
-                             calibration_keys(), exchange_keys(), run_keys()}) {
+                             controller_keys(), hardware_keys(), sensor_keys(), grasp_keys(),
+                             reference_keys(), calibration_keys(), exchange_keys(), run_keys()}) {
       keys.insert(keys.end(), part.begin(), part.end());
     }
     return keys;

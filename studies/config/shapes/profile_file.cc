@@ -9,8 +9,7 @@
 #include "meshes/base/errors.h"
 #include "meshes/press/fields.h"
 #include "meshes/tables/csv_table.h"
-#include "studies/config/text/trimmed.h"
-#include "studies/config/text/units.h"
+#include "studies/config/shapes/people_table.h"
 
 namespace fingertip::studies::inline config::inline shapes {
 namespace {
@@ -21,44 +20,6 @@ using meshes::ProfileCorner;
 using meshes::ProfileCurve;
 
 constexpr const char* head = "r [mm],z [mm],surface,curve";
-
-/// What to do about a line that is no row.
-constexpr const char* separate_alike =
-    "separate the cells of all lines alike, by commas, semicolons or tabs; decimals have a point, "
-    "or a comma where semicolons or tabs separate";
-
-[[noreturn]] void refuse_names(const CsvTable& table, const std::string& value,
-                               const std::string& rule, const std::string& remedy) {
-  throw InvalidInput(
-      {table.file.string() + ":" + std::to_string(table.names_line), value, rule, remedy});
-}
-
-/// What the first line is to be.
-std::string write_names() {
-  return "write " + std::string(head) + ", separated by commas, semicolons or tabs";
-}
-
-/// The column `r [mm]` and metres per its unit.
-struct LengthColumn {
-  std::string name;
-  double metres = 1.0;
-};
-
-LengthColumn length_column(const CsvTable& table, const std::string& symbol) {
-  for (const std::string& name : table.names) {
-    if (!name.starts_with(symbol + " [") || !name.ends_with("]")) continue;
-    const std::string unit = name.substr(symbol.size() + 2, name.size() - symbol.size() - 3);
-    try {
-      return {name, parse_quantity("1 " + unit, "m", "1 mm")};
-    } catch (const UnitError& error) {
-      refuse_names(table, name, error.rule, "write e.g. " + std::string(head));
-    }
-  }
-  refuse_names(
-      table, "",
-      "the first line must name the column " + symbol + " with its unit of length in brackets",
-      write_names());
-}
 
 [[noreturn]] void refuse(const CsvTable& table, std::size_t row, const std::string& value,
                          const std::string& rule, const std::string& remedy) {
@@ -80,15 +41,15 @@ bool take_number(std::istream& words, double& number) {
 
 std::vector<ProfileCorner> read_profile(const std::filesystem::path& file) {
   const CsvTable table = meshes::read_csv_of_people(file, separate_alike);
-  const LengthColumn r = length_column(table, "r"), z = length_column(table, "z");
+  const QuantityColumn r = length_column(table, "r", head), z = length_column(table, "z", head);
   if (!table.has("surface"))
-    refuse_names(table, "", "the first line must name the column surface", write_names());
+    refuse_names(table, "", "the first line must name the column surface", write_names(head));
   const std::vector<double> radii = table.numbers(r.name), heights = table.numbers(z.name);
   const std::vector<std::string> surfaces = table.texts("surface"), curves = table.texts("curve");
   std::vector<ProfileCorner> corners;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     ProfileCorner corner;
-    corner.r = radii[row] * r.metres, corner.z = heights[row] * z.metres;
+    corner.r = radii[row] * r.unit, corner.z = heights[row] * z.unit;
     if (std::isnan(corner.r) || std::isnan(corner.z))
       refuse(table, row, "", "a corner has r and z", "fill the empty cell");
     const auto known = values(meshes::ProfileSurface());
@@ -107,7 +68,7 @@ std::vector<ProfileCorner> read_profile(const std::filesystem::path& file) {
           words >> rest)
         refuse(table, row, curves[row], "an arc names its centre",
                "write arc R C, two numbers in the unit of the first line with a blank between");
-      corner.centre_r *= r.metres, corner.centre_z *= z.metres;
+      corner.centre_r *= r.unit, corner.centre_z *= z.unit;
     } else if (kind == "spline") {
       corner.curve = ProfileCurve::spline;
       if (words >> rest) refuse(table, row, curves[row], "spline stands alone", "delete the rest");

@@ -50,6 +50,9 @@ class Page {
     this.scene.build(message);
     this.forceMost = this.torqueMost = 0;
     element('error-figure').hidden = message.reference.length === 0 || !message.comparable;
+    element('skin-figure').hidden = message.taxels.length === 0;
+    this.skin.taxels = message.taxels;
+    this.skin.most = 0;
     element('remark').textContent = message.remark;
     element('remark').hidden = message.remark === '';
     element('overlay-legend').hidden = message.overlays.length === 0;
@@ -211,6 +214,7 @@ class Page {
     this.speedPlot = new Plot(element('plot-speed'), { x: time, y: () => `[${Units.unit('speed')}]` }, [{ colour: '--accent' }]);
     this.tiltPlot = new Plot(element('plot-tilt'), { x: time, y: () => '[°]' }, [{ colour: '--accent' }]);
     this.tiltPlot.leastSpan = 0.02;
+    this.skin = new SkinMap(element('plot-skin'));
   }
 
   /// The reference's force at an indentation, or NaN outside of its samples.
@@ -241,6 +245,8 @@ class Page {
     this.tiltPlot.series[0].points = rows.map((row) => [row[0], row[5] * 180 / Math.PI]);
     this.speedPlot.leastSpan = 0.02 * frame.settings.speed * speed;
     for (const plot of [this.forcePlot, this.errorPlot, this.speedPlot, this.tiltPlot]) plot.draw();
+    this.skin.draw(frame.taxels || []);
+    if (frame.taxels) element('skin-most').textContent = `at most ${Units.text(Math.max(...frame.taxels.map((taxel) => taxel[0])), 'stress')}`;
     const now = error(frame.indentation, frame.normal_force);
     const sign = now >= 0 ? '+' : '';
     element('reference-error').textContent = Number.isFinite(now) ? Units.minus(`${sign}${now.toFixed(2)} % off`) : '';

@@ -1,5 +1,60 @@
-// Line plots on a canvas, in CSS colours, sharp on every display.
+// Line plots and a map of taxels on a canvas, in CSS colours, sharp on every display.
 'use strict';
+
+/// A pen for the whole canvas and a function that tells today's colours; nothing of a hidden one.
+function penOf(canvas) {
+  const ratio = window.devicePixelRatio || 1;
+  const width = canvas.clientWidth, height = canvas.clientHeight;
+  if (width < 40 || height < 40) return null;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  const style = getComputedStyle(document.documentElement);
+  const colour = (name) => style.getPropertyValue(name).trim();
+  const pen = canvas.getContext('2d');
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.clearRect(0, 0, width, height);
+  pen.font = '12px system-ui, "DejaVu Sans", sans-serif';
+  return { pen, colour, width, height };
+}
+
+/// Taxels [x, y, diameter] seen along the rod, x to the right, y up: normal stress as colour, shear
+/// as a line from the middle.
+class SkinMap {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.taxels = [];
+    this.most = 0;
+  }
+
+  /// A row [normal stress, shear along u, along v] per taxel [Pa].
+  draw(readings) {
+    const sheet = penOf(this.canvas);
+    if (!sheet || this.taxels.length === 0) return;
+    const { pen, colour, width, height } = sheet;
+    this.most = Math.max(0.995 * this.most, ...readings.map(([n, u, v]) => Math.hypot(n, u, v)), 1);
+    const reach = Math.max(...this.taxels.map(([x, y, d]) => Math.hypot(x, y) + d));
+    const scale = 0.5 * (Math.min(width, height) - 8) / reach;
+    this.taxels.forEach(([x, y, diameter], i) => {
+      const [normal, u, v] = readings[i] || [0, 0, 0];
+      const X = 0.5 * width + scale * x, Y = 0.5 * height - scale * y;
+      pen.beginPath();
+      pen.arc(X, Y, Math.max(2, 0.5 * scale * diameter), 0, 2 * Math.PI);
+      pen.globalAlpha = Math.min(1, Math.max(0, normal / this.most));
+      pen.fillStyle = colour('--held');
+      pen.fill();
+      pen.globalAlpha = 1;
+      pen.lineWidth = 1;
+      pen.strokeStyle = colour('--line');
+      pen.stroke();
+      const length = scale * diameter / this.most;
+      pen.strokeStyle = colour('--text');
+      pen.lineWidth = 1.5;
+      pen.beginPath(); pen.moveTo(X, Y); pen.lineTo(X + length * u, Y - length * v); pen.stroke();
+    });
+  }
+}
 
 class Plot {
   /// series: [{ colour: '--accent', dashed, label }]; axes: { x: () => label, y: () => label }.
@@ -39,20 +94,9 @@ class Plot {
   }
 
   draw() {
-    const { canvas } = this;
-    const ratio = window.devicePixelRatio || 1;
-    const width = canvas.clientWidth, height = canvas.clientHeight;
-    if (width < 40 || height < 40) return;
-    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(height * ratio);
-    }
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name) => style.getPropertyValue(name).trim();
-    const pen = canvas.getContext('2d');
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.clearRect(0, 0, width, height);
-    pen.font = '12px system-ui, "DejaVu Sans", sans-serif';
+    const sheet = penOf(this.canvas);
+    if (!sheet) return;
+    const { pen, colour, width, height } = sheet;
     const [x0, x1] = this.range(0), [y0, y1] = this.range(1);
     const rows = Plot.steps(y0, y1, Math.max(2, Math.floor(height / 42)));
     const texts = rows.ticks.map((y) => Units.minus(y.toFixed(rows.decimals)));

@@ -45,6 +45,7 @@ class Measurement:
     force: _Vector
     torque: _Vector
     contact: Contact | None
+    taxels: _Vector
 
 class Finger:
     time: float
@@ -56,6 +57,7 @@ class Finger:
     speed: float
     inertia: _Vector
     normal: _Vector
+    taxels: _Vector
     time_step: float
     def __init__(self, config: str, sets: list[str]) -> None: ...
     def reset(self) -> Measurement: ...

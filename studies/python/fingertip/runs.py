@@ -82,6 +82,11 @@ class Response(Run):
         """contact_field.csv: pressure, shear and state of what touches, `sample` by sample (from 1)."""
         return self.table("contact_field") if (self.folder / "contact_field.csv").exists() else None
 
+    @cached_property
+    def taxels(self) -> Table | None:
+        """taxels.csv of a finger with a skin (sensor.taxels): stresses of each, `sample` by sample (from 1)."""
+        return self.table("taxels") if (self.folder / "taxels.csv").exists() else None
+
     @property
     def indentation(self) -> np.ndarray:
         """[m]"""

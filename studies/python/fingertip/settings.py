@@ -101,7 +101,7 @@ def _type_of(key: Key) -> str:
         "stages": "Sequence[Sequence[str]]",
         "file": "str | PathLike[str]",
         "source": "str | PathLike[str]",
-        "fields": "Mapping[str, str]",
+        "fields": "Mapping[str, str | int] | str | PathLike[str]",
     }.get(key.kind, "str")
 
 

@@ -213,6 +213,7 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
     reader.note_missing(continuum);
     run.contact = reader.rows<meshes::ContactPoint>(folder / "contact_field.csv");
   }
+  run.taxels = reader.rows<meshes::TaxelRow>(folder / "taxels.csv");
   run.continuum = reader.take<fem_reference::RunSummary>(reader.json(continuum / "summary.json"));
   run.reference = reader.response(continuum / "response.csv");
   run.reference_job = reader.json(continuum / "job.json");
@@ -226,6 +227,15 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   run.equilibrium_study = reader.rows<EquilibriumStudyRow>(folder / "equilibrium_study.csv");
   run.variants = reader.rows<VariantRow>(folder / "variants.csv");
   run.later = reader.rows<LaterRow>(folder / "later.csv");
+  for (const DrawnEntry& entry : run.study.drawn) {
+    const fs::path own = folder / entry.folder, other = folder / entry.continuum;
+    run.drawn.push_back({entry.name, reader.response(own / "response.csv"),
+                         reader.response(other / "response.csv"),
+                         reader.rows<meshes::ContactPoint>(own / "contact_field.csv"),
+                         reader.rows<meshes::ContactPoint>(other / "contact_field.csv"),
+                         reader.rows<meshes::TaxelRow>(own / "taxels.csv"),
+                         reader.rows<meshes::TaxelRow>(other / "taxels.csv")});
+  }
   const auto& models = run.summary.models;
   for (const std::string& name : ordered_models(models)) {
     run.models.push_back(

@@ -17,6 +17,7 @@
 #include "lattice/press/trace.h"
 #include "meshes/press/contact_field.h"
 #include "meshes/press/press_response.h"
+#include "meshes/press/taxels.h"
 #include "studies/files/case_summary.h"
 #include "studies/files/folder_reader.h"
 #include "studies/files/manifest.h"
@@ -107,6 +108,14 @@ struct ModelData : PressFiles {
   double last_force_error() const;
 };
 
+/// A press of a study whose contact is drawn, beside its continuum.
+struct DrawnPress {
+  std::string name;
+  meshes::PressResponse response, reference;
+  std::vector<meshes::ContactPoint> contact, reference_contact;
+  std::vector<meshes::TaxelRow> taxels, reference_taxels;
+};
+
 /// A run folder; what it does not hold is empty. Most entries are those of `validate`.
 struct RunData {
   std::filesystem::path folder;
@@ -125,6 +134,7 @@ struct RunData {
   fem_reference::VerificationFile verification;
   meshes::PressResponse response;             ///< of a press itself
   std::vector<meshes::ContactPoint> contact;  ///< of a press itself
+  std::vector<meshes::TaxelRow> taxels;       ///< of a press or a continuum itself
   std::vector<VibrationMode> modes;
   meshes::PressResponse reference;  ///< empty when the continuum was not run
   std::vector<fem_reference::ConvergenceRow> convergence;
@@ -135,6 +145,7 @@ struct RunData {
   std::vector<EquilibriumStudyRow> equilibrium_study;
   std::vector<VariantRow> variants;
   std::vector<LaterRow> later;
+  std::vector<DrawnPress> drawn;
   std::vector<ModelData> models;  ///< published, central, hookean, then any others
 
   const ModelData* model(const std::string& name) const;

@@ -203,3 +203,44 @@ TEST(Hardware, SettingsMustBeFiniteAndNotNegative) {
   EXPECT_EQ(found[2].key, "hardware.actuator_latency");
   EXPECT_EQ(found[3].key, "hardware.torque_rate");
 }
+
+TEST(Hardware, ASkinIsReadAtItsRateAndLate) {
+  HardwareSettings settings;
+  settings.taxel_rate = 400.0;
+  settings.taxel_latency = 2e-3;
+  Hardware hardware(settings, 20.0, 1.0);
+  // New ones at 0, 3, 5, 8, 10 ms, the first calls after a multiple of 2.5 ms.
+  const std::vector<double> told = {0, 0, 0, 0, 0, 3, 3, 5, 5, 5, 8, 8, 10};
+  Measurement m = truth();
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    m.time = 1e-3 * double(i);
+    m.taxels = {{double(i), 2.0 * double(i), 3.0 * double(i)}};
+    const Measurement seen = hardware.sense(m);
+    EXPECT_EQ(seen.taxels.at(0).normal_stress, told[i]) << i;
+    EXPECT_EQ(seen.taxels.at(0).shear_v, 3.0 * told[i]) << i;
+  }
+  hardware.reset();
+  EXPECT_EQ(hardware.sense(m).taxels.at(0).normal_stress, 12.0);
+}
+
+TEST(Hardware, ASkinHasNoiseAndSteps) {
+  HardwareSettings settings;
+  settings.taxel = {5.0, 0.5};
+  Hardware hardware(settings, 20.0, 1.0);
+  Measurement m = truth();
+  m.taxels = {{100.0, -20.0, 0.0}};
+  const Statistics seen(hardware, m, 4000, [](const Measurement& of) {
+    return Vector3(of.taxels[0].normal_stress, of.taxels[0].shear_u, of.taxels[0].shear_v);
+  });
+  EXPECT_NEAR(seen.mean.norm(), 0.0, 0.4);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(std::sqrt(seen.covariance(axis, axis)), 5.0, 0.3) << axis;
+  const double read = hardware.sense(m).taxels[0].normal_stress;
+  EXPECT_EQ(read, 0.5 * std::round(read / 0.5));
+}
+
+TEST(Hardware, WithoutASkinNothingIsFelt) {
+  HardwareSettings settings;
+  settings.taxel.noise = 1.0;
+  EXPECT_TRUE(Hardware(settings, 20.0, 1.0).sense(truth()).taxels.empty());
+}

@@ -79,6 +79,33 @@ TEST(VirtualFinger, OfAPartKeepsToItsMirrorPlanes) {
   }
 }
 
+/// Dense taxels feel the plane's force, those of a part what those of the whole finger feel.
+TEST(VirtualFinger, ASkinFeelsThePlane) {
+  lattice::FingerSetup setup = coarse_finger(0.1e-3);
+  setup.time_step = 5e-5;
+  const auto shape = meshes::shape_of(setup.geometry);
+  setup.skin.taxels = meshes::taxel_rings(*shape, 26, 32, 0.5e-3);
+  setup.skin.footprint = 1e-3;
+  const auto pushed = [&](int sectors) {
+    setup.sectors = sectors;
+    VirtualFinger finger(setup);
+    EXPECT_EQ(finger.read().taxels.at(0).normal_stress, 0.0);
+    finger.write(Wrench{Vector3(0.0, 0.0, 0.3), Vector3::Zero()});
+    finger.do_step(0.025);
+    return finger.read();
+  };
+  const lattice::Measurement whole = pushed(1), part = pushed(4);
+  ASSERT_EQ(whole.taxels.size(), setup.skin.taxels.size());
+  double force = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < whole.taxels.size(); ++i) {
+    force += setup.skin.taxels[i].area * whole.taxels[i].normal_stress;
+    largest = std::max(largest, whole.taxels[i].normal_stress);
+  }
+  EXPECT_NEAR(force / -whole.contact->on_tip.force.z(), 1.0, 0.01);
+  for (std::size_t i = 0; i < whole.taxels.size(); ++i)
+    EXPECT_NEAR(part.taxels[i].normal_stress, whole.taxels[i].normal_stress, 1e-6 * largest) << i;
+}
+
 TEST(VirtualFinger, ResetIsAsBuilt) {
   const lattice::FingerSetup setup = coarse_finger(0.1e-3);
   VirtualFinger finger(setup), fresh(setup);

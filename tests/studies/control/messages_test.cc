@@ -63,12 +63,37 @@ TEST(Messages, NumbersArriveToTheLastBit) {
   EXPECT_EQ(line["contact"]["touching"], 7);
 }
 
+TEST(Messages, ASkinIsToldAndFelt) {
+  lattice::ControlTask task;
+  task.taxels = {{{1e-3, 2e-3, 9.8e-3}, {0.1, 0.2, 0.97}, 1e-6},
+                 {{0.0, 0.0, 10e-3}, Vector3::UnitZ(), 2e-6}};
+  lattice::Measurement m = awkward();
+  m.taxels = {{1.0 / 3.0, -20.0, 0.1}, {100.0, 1.0, 2.0}};
+  const json hello = json::parse(studies::hello_line(task, 5.0, false));
+  EXPECT_EQ(hello["task"]["taxels"][0]["normal"], json({0.1, 0.2, 0.97}));
+  EXPECT_EQ(hello["task"]["taxels"][1]["area"].get<double>(), 2e-6);
+  const json line = json::parse(studies::measurement_line(m, task, 0));
+  EXPECT_EQ(line["taxels"], json({{1.0 / 3.0, -20.0, 0.1}, {100.0, 1.0, 2.0}}));
+  const fingertip_task c_task = studies::c_task(task);
+  ASSERT_EQ(c_task.taxel_count, 2u);
+  EXPECT_EQ(c_task.taxels[0].place[2], 9.8e-3);
+  EXPECT_EQ(c_task.taxels[0].normal[1], 0.2);
+  EXPECT_EQ(c_task.taxels[1].area, 2e-6);
+  const fingertip_measurement c = studies::c_measurement(m, task);
+  ASSERT_EQ(c.taxel_count, 2u);
+  EXPECT_EQ(c.taxels[0].normal_stress, 1.0 / 3.0);
+  EXPECT_EQ(c.taxels[0].shear_u, -20.0);
+  EXPECT_EQ(c.taxels[1].shear_v, 2.0);
+}
+
 TEST(Messages, WithoutTactileSensorAndWayThereAreNone) {
   lattice::Measurement m = awkward();
   m.contact.reset();
   const json line = json::parse(studies::measurement_line(m, {}, 0));
   EXPECT_FALSE(line.contains("contact"));
   EXPECT_FALSE(line.contains("set_point"));
+  EXPECT_FALSE(line.contains("taxels"));
+  EXPECT_EQ(studies::c_measurement(m, {}).taxel_count, 0u);
 }
 
 TEST(Messages, HelloTellsTheTask) {

@@ -92,6 +92,7 @@ Sets other_values(const Key& key, const std::string& literal) {
   static const std::map<std::string, Sets> given = {
       {"lattice.spacing", {"tip_radius/7"}},
       {"lattice.rotation", {"[\"1 deg\", \"0 deg\", \"0 deg\"]"}},
+      {"sensor.taxels", {"{rings = 2}"}},
       {"press.samples", {"[\"0.1 cm\", \"0.3 cm\"]"}},
       {"press.program", {"[[\"0.3 cm\", \"1 cm/s\"], [\"0 cm\", \"1 cm/s\"]]"}},
       {"calibration.conditions", {"[\"press.contact=frictionless\"]"}},
@@ -198,7 +199,9 @@ void PrintTo(const World& world, std::ostream* out) {
 /// No result depends on these: screens and threads, what verbs without a cache do, what is asked of
 /// another process, files whose content counts and not their name (controller_choice_test).
 const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawAtLargeStrain.
-    "rubber.law", "rubber.volumetric", "rubber.gent_jm", "run.threads", "run.units", "run.error",
+    // Nobody but people's own controllers asks a skin; see ChangesWithTheSkinThatItFeels.
+    "sensor.", "rubber.law", "rubber.volumetric", "rubber.gent_jm", "run.threads", "run.units",
+    "run.error",
     // Of spacing = "auto"; see finger_defaults_test.
     "lattice.max_particles", "exchange.", "controller.address", "controller.timeout",
     "controller.connect_timeout", "controller.library", "controller.schedule",
@@ -329,6 +332,18 @@ INSTANTIATE_TEST_SUITE_P(Jobs, IdentityOfAJob, testing::ValuesIn(worlds), [](con
   std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
   return name;
 });
+
+TEST(IdentityOfAPress, ChangesWithTheSkinThatItsControllerFeels) {
+  const Sets own = {"controller.type=socket", "sensor.taxels={rings = 2}"};
+  const auto before = identity_of(press, own);
+  ASSERT_TRUE(before);
+  for (const char* matters :
+       {"sensor.taxels={rings = 3}", "sensor.pitch=0.5 mm", "sensor.footprint=2 mm",
+        "sensor.depth=1 mm", "sensor.noise=1 Pa", "sensor.rate=100 Hz", "sensor.latency=2 ms"}) {
+    const auto changed = identity_of(press, own + Sets{matters});
+    EXPECT_TRUE(changed && changed != before) << matters;
+  }
+}
 
 /// Fits to files know what the others do, and their data.
 TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {

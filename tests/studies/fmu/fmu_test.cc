@@ -22,9 +22,11 @@ using namespace fingertip;
 
 namespace {
 
-const std::vector<std::string> sets = {"lattice.spacing=tip_radius/5", "lattice.model=network",
-                                       "press.clearance=0.2 mm", "press.depth=1.5 mm",
-                                       "reference.tolerance=0.02"};
+const std::vector<std::string> sets = {
+    "lattice.spacing=tip_radius/5", "lattice.model=network",
+    "press.clearance=0.2 mm",       "press.depth=1.5 mm",
+    "reference.tolerance=0.02",     "sensor.taxels={rings=2, per_ring=3}"};
+const std::vector<studies::FmuVariable> variables = studies::fmu_variables(6);
 
 std::string logged;  ///< what units told last
 
@@ -78,7 +80,7 @@ class Fmu : public ::testing::Test {
   }
   std::vector<double> all(fmi2Component unit) const {
     using Get = fmi2Status(fmi2Component, const unsigned*, std::size_t, double*);
-    std::vector<unsigned> which(studies::fmu_variables.size());
+    std::vector<unsigned> which(variables.size());
     for (unsigned i = 0; i < which.size(); ++i) which[i] = i;
     std::vector<double> values(which.size());
     EXPECT_EQ(entry<Get>("fmi2GetReal")(unit, which.data(), which.size(), values.data()), fmi2OK);
@@ -94,8 +96,8 @@ class Fmu : public ::testing::Test {
 };
 
 std::size_t index_of(std::string_view name) {
-  for (std::size_t i = 0; i < studies::fmu_variables.size(); ++i)
-    if (studies::fmu_variables[i].name == name) return i;
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    if (variables[i].name == name) return i;
   throw std::invalid_argument(std::string(name));
 }
 
@@ -113,7 +115,7 @@ TEST_F(Fmu, StepsAThousandPeriodsToTheSameBitsAsTheFinger) {
   const lattice::PressWay way(setup.protocol, setup.geometry);
   lattice::VirtualFinger finger(lattice::pressed_finger(setup, way));
   const double period = setup.controller.period, toward = -way.plane.normal.z();
-  double deepest = 0.0;
+  double deepest = 0.0, pressed = 0.0;
   for (int i = 0; i < 1000; ++i) {
     const double time = finger.time();
     auto [x, y, z] = push(time);
@@ -132,9 +134,14 @@ TEST_F(Fmu, StepsAThousandPeriodsToTheSameBitsAsTheFinger) {
       EXPECT_EQ(values[index_of("bond_torque_x") + std::size_t(k)], seen.wrench.torque[k]);
     }
     EXPECT_EQ(values[index_of("orientation_w")], seen.pose.orientation.w());
+    ASSERT_EQ(seen.taxels.size(), 6u);
+    EXPECT_EQ(values[index_of("taxel_1_normal_stress")], seen.taxels[0].normal_stress);
+    EXPECT_EQ(values[index_of("taxel_6_shear_v")], seen.taxels[5].shear_v);
+    pressed = std::max(pressed, seen.taxels[0].normal_stress);
     deepest = std::max(deepest, values[index_of("indentation")]);
   }
   EXPECT_GT(deepest, 0.1e-3);  // it has touched
+  EXPECT_GT(pressed, 10.0);
   release(unit);
 }
 
@@ -196,11 +203,10 @@ TEST_F(Fmu, DescriptionListsTheVariables) {
   std::size_t count = 0;
   for (const auto& [name, variable] : model.get_child("ModelVariables")) {
     if (name != "ScalarVariable") continue;
-    EXPECT_EQ(variable.get<std::string>("<xmlattr>.name"), studies::fmu_variables[count].name);
+    EXPECT_EQ(variable.get<std::string>("<xmlattr>.name"), variables[count].name);
     EXPECT_EQ(variable.get<std::size_t>("<xmlattr>.valueReference"), count);
-    EXPECT_EQ(variable.get<std::string>("<xmlattr>.causality") == "input",
-              studies::fmu_variables[count].input);
+    EXPECT_EQ(variable.get<std::string>("<xmlattr>.causality") == "input", variables[count].input);
     ++count;
   }
-  EXPECT_EQ(count, studies::fmu_variables.size());
+  EXPECT_EQ(count, variables.size());
 }

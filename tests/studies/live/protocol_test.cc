@@ -109,6 +109,22 @@ TEST(Protocol, TellsTheLimitsOfAContactForceWhereOneIsHeld) {
   EXPECT_EQ(limits().at("contact_force"), nlohmann::json({0.02, 0.3}));
 }
 
+TEST(Protocol, TellsTheSkinAndWhatItFeels) {
+  LiveScene scene;
+  const auto told = [&] { return nlohmann::json::parse(encode_scene(scene)).at("taxels"); };
+  EXPECT_TRUE(told().empty());
+  scene.taxels = {{{1e-3, -2e-3, 9e-3}, meshes::Vector3::UnitZ(), 3.141592653589793e-6}};
+  EXPECT_EQ(told().at(0).at(1), -2e-3);
+  EXPECT_NEAR(told().at(0).at(2).get<double>(), 2e-3, 1e-12);
+  LiveFrame frame = small_frame();
+  frame.picture.measured.taxels = {{300.0, -20.0, 4.0}};
+  const std::string bytes = encode_frame(frame, {});
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data(), 4);
+  EXPECT_EQ(nlohmann::json::parse(bytes.substr(4, length)).at("taxels"),
+            nlohmann::json({{300.0, -20.0, 4.0}}));
+}
+
 TEST(Protocol, NumbersThatAreNoneBecomeNull) {
   LiveFrame frame = small_frame();
   frame.picture.row.normal_force = std::nan("");

@@ -1,11 +1,16 @@
 """A finger stepped in a loop of one's own."""
 
+import sys
 import unittest
+from pathlib import Path
 
 import numpy as np
 from helpers import QUICK, InFolder
 
 import fingertip
+
+sys.path.insert(0, str(Path(__file__).parents[3] / "studies/control/examples"))
+import hold_by_touch  # noqa: E402
 
 
 def pressed(finger, command, periods=10_000):
@@ -69,6 +74,21 @@ class Finger(InFolder):
         self.assertIn("Measurement", repr(seen))
         self.assertEqual(finger.period, 1e-3)
         self.assertIsNotNone(fingertip.Finger(QUICK).measure().contact)
+
+    def test_a_skin_alone_holds_a_force(self):
+        rows = hold_by_touch.hold(lattice_spacing="tip_radius/8", sensor_noise="5 Pa", sensor_latency="2 ms")
+        settled = rows[rows[:, 0] > 0.5]
+        self.assertGreater(len(settled), 50)
+        self.assertAlmostEqual(settled[:, 1].mean() / hold_by_touch.WANTED, 1.0, delta=0.01)
+        self.assertAlmostEqual(settled[:, 2].mean() / hold_by_touch.WANTED, 1.0, delta=0.02)
+        self.assertLess(rows[:, 2].max(), 1.2 * hold_by_touch.WANTED)
+
+    def test_has_the_skin_that_is_asked_for(self):
+        finger = fingertip.Finger(QUICK, sensor_taxels={"rings": 2, "per_ring": 6})
+        self.assertEqual(finger.taxels.shape, (12, 7))
+        np.testing.assert_allclose(np.linalg.norm(finger.taxels[:, :3], axis=1), 0.01, rtol=1e-9)
+        np.testing.assert_array_equal(finger.measure().taxels, np.zeros((12, 3)))
+        self.assertEqual(fingertip.Finger(QUICK).measure().taxels.shape, (0, 3))
 
     def test_refuses_what_is_no_number(self):
         finger = fingertip.Finger(QUICK)

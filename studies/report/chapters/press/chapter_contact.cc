@@ -183,11 +183,20 @@ Table contact_table(const ContactComparison& contacts) {
 }  // namespace
 
 Chapter contact_chapter(const ContactComparison& contacts) {
+  return contact_chapter(contacts, "", 0);
+}
+
+Chapter contact_chapter(const ContactComparison& contacts, const std::string& name,
+                        std::size_t number) {
   if (contacts.depths.empty()) return {};
   const std::vector<RunContact>& runs = contacts.runs;
   const ContactsAtDepth& deepest = contacts.depths.back();
   if (!(deepest.maps.front().pressure.maxCoeff() > 0.0)) return {};  // points in a line
   ChapterData chapter("contact");
+  const std::string prefix = name.empty() ? "" : fmt::format("press{}_", number);
+  chapter.id = prefix + chapter.id;
+  chapter["prefix"] = prefix;
+  chapter["name"] = name;
   chapter["compared"] = runs.size() > 1;
   chapter["first"] = runs.front().label;
   chapter["depth"] = length(deepest.depth);
@@ -199,7 +208,9 @@ Chapter contact_chapter(const ContactComparison& contacts) {
   chapter["ellipse"] = percent_magnitude(held.ellipse_error);
   if (is_held(first) && !held.points.empty())
     chapter.figures.push_back(limit_figure(runs, deepest));
-  if (runs.size() > 1) chapter.tables["contact"] = contact_table(contacts);
+  if (!name.empty()) append_motions(runs, "motion_lateral", "motion_twist", chapter.figures);
+  for (Figure& figure : chapter.figures) figure.name.insert(0, prefix);
+  if (runs.size() > 1) chapter.tables[prefix + "contact"] = contact_table(contacts);
   return written(std::move(chapter));
 }
 

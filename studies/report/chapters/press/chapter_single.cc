@@ -153,6 +153,37 @@ std::vector<PlaneMotion> plane_motions(SampleRange samples) {
   return motions;
 }
 
+bool makes(SampleRange samples, const PlaneMotion& motion) {
+  return std::ranges::any_of(plane_motions(samples), [&](const PlaneMotion& made) {
+    return made.way.value == motion.way.value;
+  });
+}
+
+std::vector<PlaneMotion> motions_of(const std::vector<RunContact>& runs) {
+  std::vector<PlaneMotion> motions;
+  for (const RunContact& run : runs)
+    for (const PlaneMotion& motion : plane_motions(moved_along_plane(*run.response)))
+      if (std::ranges::none_of(motions, [&](const PlaneMotion& known) {
+            return known.way.value == motion.way.value;
+          }))
+        motions.push_back(motion);
+  return motions;
+}
+
+void append_motions(const std::vector<RunContact>& runs, const char* lateral, const char* twist,
+                    std::vector<Figure>& figures) {
+  for (const PlaneMotion& motion : motions_of(runs)) {
+    Panel panel{.x_label = motion.way.label(), .y_label = motion.load.label(), .key = above};
+    for (const RunContact& run : runs)
+      if (const auto moved = moved_along_plane(*run.response); makes(moved, motion))
+        panel.series.push_back(curve(run.label, "", run.style, moved,
+                                     in(motion.way.unit, motion.way.value),
+                                     in(motion.load.unit, motion.load.value)));
+    const bool turns = motion.way.value == &meshes::PressSample::twist;
+    figures.push_back({turns ? twist : lateral, 760, 420, 1, {std::move(panel)}});
+  }
+}
+
 SampleRange moved_along_plane(const meshes::PressResponse& response) {
   const SampleRange all = response.samples();
   std::size_t first = all.size(), end = 0;

@@ -41,6 +41,13 @@ struct PlaneMotion {
 };
 /// Those that samples make, of lateral displacement and twist; mostly none.
 std::vector<PlaneMotion> plane_motions(SampleRange samples);
+/// Whether samples make the motion.
+bool makes(SampleRange samples, const PlaneMotion& motion);
+/// The motions that followed presses, of all runs together.
+std::vector<PlaneMotion> motions_of(const std::vector<RunContact>& runs);
+/// A figure for each, of these names.
+void append_motions(const std::vector<RunContact>& runs, const char* lateral, const char* twist,
+                    std::vector<Figure>& figures);
 /// The samples of these motions, from the last of the first loading on; none without motion.
 SampleRange moved_along_plane(const meshes::PressResponse& response);
 /// Force, error, lateral force, torque about the normal, contact radius and pressures, as far as
@@ -51,8 +58,16 @@ Table stage_table(const std::vector<StageEntry>& stages);
 /// Pressure and shear of runs beside the first one, of that alone where it is alone; without blocks
 /// when no depth has a field.
 Chapter contact_chapter(const ContactComparison& contacts);
+/// The same of a press of a study beside its continuum, the first of both, with what held the plane
+/// back where it moved; the `number`-th on the page.
+Chapter contact_chapter(const ContactComparison& contacts, const std::string& name,
+                        std::size_t number);
 /// Of the continuum and the lattices.
 Chapter contact_chapter(const RunData& run);
+/// What each taxel feels at the last sample, of one run or of two and their difference, and all of
+/// them together; without blocks when there is none.
+Chapter skin_chapter(const std::vector<RunContact>& runs, const std::string& name = "",
+                     std::size_t number = 0);
 /// Force and contact radius of one press; without blocks when it has no sample. Of a program the
 /// force is drawn to its end, from trace.csv where there is one.
 Chapter press_chapter(const meshes::PressResponse& response,

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <map>
 
 #include "lattice/press/press.h"
 #include "tests/coarse_press.h"
 #include "tests/expectations.h"
+#include "tests/studies/presses/pictures/vtk_reader.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -18,49 +18,6 @@ using meshes::Vector3;
 using studies::Movie;
 
 namespace {
-
-std::string decoded(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  unsigned bits = 0, count = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    bits = (bits << 6U) | unsigned(digits.find(c));
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes += char((bits >> count) & 0xFFU);
-  }
-  return bytes;
-}
-
-/// The text from `from`, exclusive, to the next `to`.
-std::string between(const std::string& text, const std::string& from, const std::string& to) {
-  const std::size_t begin = text.find(from);
-  if (begin == std::string::npos) return {};
-  const std::size_t start = begin + from.size();
-  return text.substr(start, text.find(to, start) - start);
-}
-
-template <class Number>
-std::vector<Number> array_of(const std::string& piece, const std::string& name) {
-  const std::string element = between(piece, "Name=\"" + name + "\"", "</DataArray>");
-  const std::string bytes = decoded(element.substr(element.find('>') + 1));
-  std::uint64_t size = 0;
-  std::memcpy(&size, bytes.data(), sizeof(size));
-  EXPECT_EQ(size, bytes.size() - sizeof(size)) << name;
-  std::vector<Number> numbers(size / sizeof(Number));
-  std::memcpy(numbers.data(), bytes.data() + sizeof(size), size);
-  return numbers;
-}
-
-std::vector<std::string> pieces_of(const std::string& file) {
-  std::vector<std::string> pieces;
-  for (std::size_t at = file.find("<Piece"); at != std::string::npos;
-       at = file.find("<Piece", at + 1))
-    pieces.push_back(file.substr(at, file.find("</Piece>", at) - at));
-  return pieces;
-}
 
 /// Checks that arrays fit together and returns the number of cells per VTK type.
 std::map<int, int> cells_of(const std::string& piece) {
