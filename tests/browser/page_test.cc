@@ -247,7 +247,7 @@ TEST_F(LiveForcePage, SetsTheContactForce) {
   EXPECT_EQ(page_->evaluate(crowded), nlohmann::json::array());
 }
 
-/// A finger of triangles.
+/// A finger of triangles with a skin.
 class LiveSolidPage : public LivePage {
  protected:
   lattice::PressSetup press() const override {
@@ -257,6 +257,7 @@ class LiveSolidPage : public LivePage {
     // As hard to turn as the rubber about the wrist: a lighter hand begins to sway when it holds.
     setup.rod.density *= 12.0;
     setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+    setup.hardware.skin.taxels = meshes::taxel_rings(*meshes::shape_of(setup.geometry), 3, 6, 1e-3);
     return setup;
   }
 };
@@ -270,6 +271,15 @@ TEST_F(LiveSolidPage, IsPressedAndPulledAsAnyFinger) {
   come_to_rest();
   EXPECT_GT(shown("touching"), 0.0);
   EXPECT_NEAR(shown("indentation"), 1e3 * simulation_->frame()->picture.row.indentation, 0.51e-3);
+  double most = 0.0;
+  for (const auto& taxel : simulation_->frame()->picture.measured.taxels)
+    most = std::max(most, taxel.normal_stress);
+  EXPECT_GT(most, 0.0);
+  EXPECT_NEAR(page_
+                  ->evaluate("parseFloat(document.getElementById('skin-most').textContent.match("
+                             "/[0-9.]+/)[0])")
+                  .get<double>(),
+              1e-3 * most, 1e-3);
   page_->click("#controller");  // off: the rod is free
   page_->drag("#handle", 60.0, 0.0);
   ASSERT_TRUE(page_->wait_for("'held' in document.getElementById('handle').dataset"));

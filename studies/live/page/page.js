@@ -51,8 +51,7 @@ class Page {
     this.forceMost = this.torqueMost = 0;
     element('error-figure').hidden = message.reference.length === 0 || !message.comparable;
     element('skin-figure').hidden = message.taxels.length === 0;
-    this.skin.taxels = message.taxels;
-    this.skin.most = 0;
+    this.skin.show(message.taxels);
     element('remark').textContent = message.remark;
     element('remark').hidden = message.remark === '';
     element('overlay-legend').hidden = message.overlays.length === 0;

@@ -28,6 +28,15 @@ class SkinMap {
     this.most = 0;
   }
 
+  /// Discs no wider than the nearest taxel is away.
+  show(taxels) {
+    this.taxels = taxels.map(([x, y, diameter], i) => {
+      const gaps = taxels.map(([u, v], j) => (i === j ? Infinity : Math.hypot(x - u, y - v)));
+      return [x, y, Math.min(diameter, ...gaps)];
+    });
+    this.most = 0;
+  }
+
   /// A row [normal stress, shear along u, along v] per taxel [Pa].
   draw(readings) {
     const sheet = penOf(this.canvas);
@@ -48,7 +57,7 @@ class SkinMap {
       pen.lineWidth = 1;
       pen.strokeStyle = colour('--line');
       pen.stroke();
-      const length = scale * diameter / this.most;
+      const length = 1.5 * scale * diameter / this.most;
       pen.strokeStyle = colour('--text');
       pen.lineWidth = 1.5;
       pen.beginPath(); pen.moveTo(X, Y); pen.lineTo(X + length * u, Y - length * v); pen.stroke();
