@@ -12,11 +12,11 @@ import fingertip
 
 WANTED = 0.03  # [N]
 STIFFNESS = 30.0  # of the contact, roughly [N/m]
-SETTLING = 0.03  # [s]
+SETTLING = 0.08  # [s]; 2 Hz, far below the servo's 60 Hz: at 0.03 s the rod begins to swing
 FASTEST = 0.01  # [m/s]
 
 
-def hold(seconds=0.6, **settings):
+def hold(seconds=0.9, **settings):
     """What was felt and what acted at every period: time [s], the skin's force, the contact's [N]."""
     skin = {"rings": 9, "per_ring": 12}
     finger = fingertip.Finger(sensor_taxels=skin, sensor_pitch="0.6 mm", **settings)

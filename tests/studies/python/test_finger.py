@@ -77,8 +77,9 @@ class Finger(InFolder):
 
     def test_a_skin_alone_holds_a_force(self):
         rows = hold_by_touch.hold(lattice_spacing="tip_radius/8", sensor_noise="5 Pa", sensor_latency="2 ms")
-        settled = rows[rows[:, 0] > 0.5]
+        settled = rows[rows[:, 0] > 0.7]
         self.assertGreater(len(settled), 50)
+        self.assertLess(settled[:, 2].std(), 0.01 * hold_by_touch.WANTED)
         self.assertAlmostEqual(settled[:, 1].mean() / hold_by_touch.WANTED, 1.0, delta=0.01)
         self.assertAlmostEqual(settled[:, 2].mean() / hold_by_touch.WANTED, 1.0, delta=0.02)
         self.assertLess(rows[:, 2].max(), 1.2 * hold_by_touch.WANTED)
