@@ -48,6 +48,7 @@ LatticeCensus take_census(const PressSetup& setup, const LatticeModel& model) {
 FingerSetup computed_finger(const PressSetup& setup, const PressWay& way) {
   FingerSetup finger = pressed_finger(setup, way);
   finger.sectors = moving_sectors(setup);
+  if (!setup.make_controller) finger.skin = {};  // the built-in one does not ask it
   return finger;
 }
 

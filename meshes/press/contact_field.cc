@@ -29,18 +29,6 @@ void add_sample(std::span<const ContactPoint> points, int sample, double indenta
   }
 }
 
-std::vector<std::span<const ContactPoint>> samples_of(std::span<const ContactPoint> field) {
-  std::vector<std::span<const ContactPoint>> samples;
-  while (!field.empty()) {
-    const auto end = std::ranges::find_if(
-        field, [first = field.front().sample](const auto& point) { return point.sample != first; });
-    const auto count = std::size_t(end - field.begin());
-    samples.push_back(field.first(count));
-    field = field.subspan(count);
-  }
-  return samples;
-}
-
 std::vector<ContactPoint> unfolded(std::span<const ContactPoint> points, int sectors) {
   std::vector<ContactPoint> all(points.begin(), points.end());
   const auto add_images = [&all](int axis) {

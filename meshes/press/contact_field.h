@@ -1,6 +1,7 @@
 /// Pressure and shear in the contact, point by point: contact_field.csv.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -60,8 +61,19 @@ consteval auto fields_of(const ContactPoint*) {
 void add_sample(std::span<const ContactPoint> points, int sample, double indentation,
                 std::vector<ContactPoint>& field);
 
-/// The points of each sample, in the order of the field, where those of one stand together.
-std::vector<std::span<const ContactPoint>> samples_of(std::span<const ContactPoint> field);
+/// The rows of each sample, points of a field or others that know theirs, in their order, where
+/// those of one stand together.
+template <class Rows>
+auto samples_of(const Rows& rows) {
+  using Sample = std::span<const typename Rows::value_type>;
+  std::vector<Sample> samples;
+  for (Sample rest(rows); !rest.empty(); rest = rest.subspan(samples.back().size())) {
+    const auto end = std::ranges::find_if(
+        rest, [first = rest.front().sample](const auto& row) { return row.sample != first; });
+    samples.push_back(rest.first(std::size_t(end - rest.begin())));
+  }
+  return samples;
+}
 
 /// With its images: of a quarter (`sectors` 4) in x and y, of a half (2) in y. A point on a mirror
 /// plane, which bears what is on this side of it, becomes one with its image.

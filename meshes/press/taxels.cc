@@ -146,7 +146,8 @@ std::vector<TaxelReading> taxel_readings(std::span<const ContactPoint> points,
       Vector3 load = (turn(normal, -point.normal) * own).transpose() * point.force();
       load.z() *= -1.0;
       if (skin.depth == 0.0) {
-        stress += shared_area(distance, footprint, radius) / (pi * radius * radius) * load;
+        stress += shared_area(distance, footprint, radius) /
+                  (pi * footprint * footprint * pi * radius * radius) * load;
         continue;
       }
       Vector3 to = Vector3::Zero();
@@ -155,12 +156,17 @@ std::vector<TaxelReading> taxel_readings(std::span<const ContactPoint> points,
       else
         to.x() = distance;  // through the finger
       to.z() = skin.depth;
-      stress += pi * footprint * footprint * conducted(load, to, std::hypot(footprint, radius));
+      stress += conducted(load, to, std::hypot(footprint, radius));
     }
-    stress /= pi * footprint * footprint;
     readings.push_back({stress.z(), stress.x(), stress.y()});
   }
   return readings;
+}
+
+double felt_force(std::span<const TaxelRow> sample) {
+  double force = 0.0;
+  for (const TaxelRow& row : sample) force += row.area * row.normal_stress;
+  return force;
 }
 
 std::vector<TaxelRow> taxel_rows(std::span<const ContactPoint> field, const TaxelSkin& skin,

@@ -83,6 +83,9 @@ consteval auto fields_of(const TaxelRow*) {
       .called("place", "x,y,z");
 }
 
+/// What the taxels of one sample feel together: areas times normal stress [N].
+double felt_force(std::span<const TaxelRow> sample);
+
 /// A row for each taxel in each sample of a field (contact_field.csv).
 std::vector<TaxelRow> taxel_rows(std::span<const ContactPoint> field, const TaxelSkin& skin,
                                  const Eigen::Matrix3d& axes);

@@ -1,7 +1,6 @@
 #include "studies/cases/contact_measures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "meshes/press/taxels.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/cases/force_comparison.h"
+#include "studies/report/results/contact_comparison.h"
 
 namespace fingertip::studies::inline cases {
 
@@ -20,8 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using meshes::ContactPoint, meshes::PressSample, meshes::TaxelRow;
 using Field = std::span<const ContactPoint>;
-
-constexpr Eigen::Index places = 81;  ///< along each side of the raster
 
 template <typename Row>
 std::vector<Row> rows_in(const fs::path& file) {
@@ -38,13 +36,6 @@ double largest_difference(std::span<const PressSample> press, std::span<const Pr
     scale = larger(scale, std::abs(wanted[i].*value));
   }
   return most / scale;
-}
-
-/// Of a sample, none where it did not touch.
-Field field_of(const std::vector<ContactPoint>& field, int sample) {
-  for (const Field points : meshes::samples_of(field))
-    if (points.front().sample == sample) return points;
-  return {};
 }
 
 /// Radius of the ball on a plane that the two are to Hertz; nothing where they are none, or do not
@@ -84,17 +75,16 @@ double taxel_error(const std::vector<TaxelRow>& press, const std::vector<TaxelRo
   for (const TaxelRow& row : wanted) scale = larger(scale, row.normal_stress);
   if (!(scale > 0.0)) return meshes::unknown;
   double worst = 0.0;
-  for (std::size_t i = 0; i < press.size();) {
+  auto other = wanted.begin();
+  for (const auto sample : meshes::samples_of(press)) {
     double squares = 0.0;
-    std::size_t end = i;
-    for (; end < press.size() && press[end].sample == press[i].sample; ++end) {
-      if (press[end].sample != wanted[end].sample || press[end].taxel != wanted[end].taxel)
-        return meshes::unknown;
+    for (const TaxelRow& row : sample) {
+      if (row.sample != other->sample || row.taxel != other->taxel) return meshes::unknown;
       for (const auto stress : {&TaxelRow::normal_stress, &TaxelRow::shear_u, &TaxelRow::shear_v})
-        squares += std::pow(press[end].*stress - wanted[end].*stress, 2);
+        squares += std::pow(row.*stress - (*other).*stress, 2);
+      ++other;
     }
-    worst = larger(worst, std::sqrt(squares / (3.0 * double(end - i))) / scale);
-    i = end;
+    worst = larger(worst, std::sqrt(squares / (3.0 * double(sample.size()))) / scale);
   }
   return worst;
 }
@@ -110,20 +100,17 @@ ContactErrors contact_errors(const lattice::PressSetup& setup, const fs::path& p
   errors.torque = largest_difference(own.samples(), wanted.samples(), &PressSample::spin_torque);
   const auto own_field = rows_in<ContactPoint>(press / "contact_field.csv"),
              wanted_field = rows_in<ContactPoint>(reference / "contact_field.csv");
-  const int last = int(own.pressing().size());
-  const std::array<Field, 2> fields{field_of(wanted_field, last), field_of(own_field, last)};
-  if (!fields[0].empty() && !fields[1].empty()) {
-    const meshes::Raster raster = meshes::raster_around(fields, places);
-    errors.field = difference_of(contact_map(fields[1], raster), contact_map(fields[0], raster));
+  const auto contacts =
+      report::compared_contacts({{"", {}, &wanted, &wanted_field}, {"", {}, &own, &own_field}});
+  if (contacts.runs.size() == 2 && !contacts.depths.empty()) {
+    errors.field = contacts.depths.back().difference(1);
+    errors.hertz = hertz_error(setup, contacts.depths.back().fields.front());
   }
-  errors.hertz = hertz_error(setup, fields[0]);
   const auto felt = rows_in<TaxelRow>(press / "taxels.csv");
   errors.taxels = taxel_error(felt, rows_in<TaxelRow>(reference / "taxels.csv"));
-  double force = 0.0;
-  for (const TaxelRow& row : felt)
-    if (row.sample == last) force += row.area * row.normal_stress;
-  if (!felt.empty() && last > 0)
-    errors.skin_force = std::abs(force / own.pressing().back().normal_force - 1.0);
+  for (const auto sample : meshes::samples_of(felt))
+    if (std::size_t(sample.front().sample) == own.pressing().size())
+      errors.skin_force = std::abs(felt_force(sample) / own.pressing().back().normal_force - 1.0);
   return errors;
 }
 

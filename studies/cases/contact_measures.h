@@ -10,7 +10,7 @@ namespace fingertip::studies::inline cases {
 
 /// Relative, of the two run folders; NaN where a file or a quantity is missing.
 struct ContactErrors {
-  meshes::ContactDifference field;  ///< at the last sample of the press that both have
+  meshes::ContactDifference field;  ///< at the deepest sample of the press that both have
   /// Largest difference of a force aside and of a torque about the normal, over the reference's
   /// largest.
   double lateral = meshes::unknown, torque = meshes::unknown;

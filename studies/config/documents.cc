@@ -47,9 +47,9 @@ nlohmann::json element_schema(const Key& key) {
         schema["properties"][field.name] = {
             {"type", field.unit == "1" ? "integer" : "string"},
             {"description", field.help + (field.unit.empty() ? "" : " [" + field.unit + "]")}};
-      if (key.or_file) schema["minProperties"] = 1;
-      if (key.or_file) schema = {{"anyOf", {schema, {{"type", "string"}, {"minLength", 1}}}}};
-      return schema;
+      if (!key.or_file) return schema;
+      schema["minProperties"] = 1;
+      return {{"anyOf", {schema, {{"type", "string"}, {"minLength", 1}}}}};
     case Kind::choice:
       schema["enum"] = json::array();
       for (const Choice& choice : key.choices) schema["enum"].push_back(choice.word);

@@ -11,12 +11,12 @@
 namespace fingertip::studies::inline presses {
 
 /// Writes taxels.csv beside the contact_field.csv of a press of `setup`'s specimen, by lattice or
-/// continuum: without noise, rate and latency. Takes an older one away where there is no skin.
-/// Returns what stands in it; nothing where no point touched.
-std::vector<meshes::TaxelRow> write_taxels(const std::filesystem::path& folder,
-                                           const lattice::PressSetup& setup);
+/// continuum: without noise, rate and latency. Takes an older one away where there is no skin, or
+/// no point touched.
+void write_taxels(const std::filesystem::path& folder, const lattice::PressSetup& setup);
 
-/// The same, and pictures of the contact for ParaView (pictures/contact_frames.h).
+/// The same, and pictures of the contact for ParaView (pictures/contact_frames.h). Returns what
+/// stands in taxels.csv.
 std::vector<meshes::TaxelRow> write_contact_files(const std::filesystem::path& folder,
                                                   const lattice::PressSetup& setup);
 

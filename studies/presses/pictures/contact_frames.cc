@@ -5,8 +5,6 @@
 #include <ostream>
 
 #include "meshes/base/files.h"
-#include "meshes/press/contact_field.h"
-#include "meshes/tables/table_rows.h"
 #include "studies/presses/pictures/vtk_text.h"
 
 namespace fingertip::studies::inline presses::inline pictures {
@@ -46,11 +44,9 @@ std::string frame_text(std::span<const ContactPoint> points) {
 
 }  // namespace
 
-void write_contact_frames(const fs::path& folder) {
-  const fs::path frames = folder / "contact", table = folder / "contact_field.csv";
+void write_contact_frames(std::span<const ContactPoint> field, const fs::path& folder) {
+  const fs::path frames = folder / "contact";
   fs::remove_all(frames);
-  if (!fs::exists(table)) return;
-  const auto field = meshes::read_rows<ContactPoint>(table);
   if (field.empty()) return;
   fs::create_directories(frames);
   std::vector<double> times;

@@ -77,7 +77,7 @@ TEST(ContactField, ARingIsEvenAllAround) {
 }
 
 TEST(ContactField, IsTakenApartBySamples) {
-  EXPECT_TRUE(meshes::samples_of({}).empty());
+  EXPECT_TRUE(meshes::samples_of(std::vector<ContactPoint>()).empty());
   std::vector<ContactPoint> field;
   meshes::add_sample(meshes::unfolded(one, 2), 2, 2e-3, field);
   meshes::add_sample(one, 5, 3e-3, field);

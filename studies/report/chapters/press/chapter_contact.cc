@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "meshes/press/limit_surface.h"
 #include "studies/report/chapters/press/press_chapters.h"
-#include "studies/report/page/words.h"
 
 namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
@@ -182,8 +182,16 @@ Table contact_table(const ContactComparison& contacts) {
 
 }  // namespace
 
-Chapter contact_chapter(const ContactComparison& contacts) {
-  return contact_chapter(contacts, "", 0);
+Chapter written_of(ChapterData chapter, const std::string& name, std::size_t number) {
+  const std::string prefix = name.empty() ? "" : fmt::format("press{}_", number);
+  chapter["prefix"] = prefix;
+  chapter["name"] = name;
+  chapter.id.insert(0, prefix);
+  for (Figure& figure : chapter.figures) figure.name.insert(0, prefix);
+  std::map<std::string, Table> tables;
+  for (auto& [id, table] : chapter.tables) tables[prefix + id] = std::move(table);
+  chapter.tables = std::move(tables);
+  return written(std::move(chapter));
 }
 
 Chapter contact_chapter(const ContactComparison& contacts, const std::string& name,
@@ -193,10 +201,6 @@ Chapter contact_chapter(const ContactComparison& contacts, const std::string& na
   const ContactsAtDepth& deepest = contacts.depths.back();
   if (!(deepest.maps.front().pressure.maxCoeff() > 0.0)) return {};  // points in a line
   ChapterData chapter("contact");
-  const std::string prefix = name.empty() ? "" : fmt::format("press{}_", number);
-  chapter.id = prefix + chapter.id;
-  chapter["prefix"] = prefix;
-  chapter["name"] = name;
   chapter["compared"] = runs.size() > 1;
   chapter["first"] = runs.front().label;
   chapter["depth"] = length(deepest.depth);
@@ -209,9 +213,8 @@ Chapter contact_chapter(const ContactComparison& contacts, const std::string& na
   if (is_held(first) && !held.points.empty())
     chapter.figures.push_back(limit_figure(runs, deepest));
   if (!name.empty()) append_motions(runs, "motion_lateral", "motion_twist", chapter.figures);
-  for (Figure& figure : chapter.figures) figure.name.insert(0, prefix);
-  if (runs.size() > 1) chapter.tables[prefix + "contact"] = contact_table(contacts);
-  return written(std::move(chapter));
+  if (runs.size() > 1) chapter.tables["contact"] = contact_table(contacts);
+  return written_of(std::move(chapter), name, number);
 }
 
 Chapter contact_chapter(const RunData& run) {

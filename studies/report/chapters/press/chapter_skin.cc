@@ -7,7 +7,6 @@
 #include <span>
 
 #include "studies/report/chapters/press/press_chapters.h"
-#include "studies/report/page/words.h"
 
 namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
@@ -80,18 +79,12 @@ void add_arrows(Panel& panel, Taxels taxels, double highest) {
 }
 
 /// Force that the skin feels over the indentation, of a press's samples.
-Series felt_force(const RunContact& run) {
+Series felt_series(const RunContact& run) {
   Series series{run.label.empty() ? "skin" : run.label + ", skin", "", run.style.as_points(7)};
-  const std::size_t pressing = run.response->pressing().size();
-  for (auto row = run.taxels->begin(); row != run.taxels->end();) {
-    const auto end = std::find_if(row, run.taxels->end(),
-                                  [&](const TaxelRow& r) { return r.sample != row->sample; });
-    double force = 0.0;
-    for (auto taxel = row; taxel != end; ++taxel) force += taxel->area * taxel->normal_stress;
-    if (std::size_t(row->sample) <= pressing)
-      series.add(shown_units().length(row->indentation), shown_units().force(force));
-    row = end;
-  }
+  for (const Taxels sample : meshes::samples_of(*run.taxels))
+    if (std::size_t(sample.front().sample) <= run.response->pressing().size())
+      series.add(shown_units().length(sample.front().indentation),
+                 shown_units().force(felt_force(sample)));
   return series;
 }
 
@@ -103,17 +96,9 @@ Figure force_figure(const std::vector<RunContact>& runs) {
                                  run.style.as_line(), run.response->pressing(),
                                  in(length, &meshes::PressSample::indentation),
                                  in(force, &meshes::PressSample::normal_force)));
-    panel.series.push_back(felt_force(run));
+    panel.series.push_back(felt_series(run));
   }
   return {"skin_force", 760, 380, 1, {std::move(panel)}};
-}
-
-/// The rows of a sample.
-Taxels rows_of(const std::vector<TaxelRow>& rows, int sample) {
-  const auto begin = std::ranges::find(rows, sample, &TaxelRow::sample);
-  const auto end =
-      std::find_if(begin, rows.end(), [&](const TaxelRow& row) { return row.sample != sample; });
-  return {begin, end};
 }
 
 double highest_of(Taxels taxels, const auto& value) {
@@ -132,12 +117,13 @@ Chapter skin_chapter(const std::vector<RunContact>& runs, const std::string& nam
                      std::size_t number) {
   for (const RunContact& run : runs)
     if (run.taxels == nullptr || run.taxels->empty()) return {};
-  const int sample = runs.front().taxels->back().sample;
   std::vector<Taxels> felt;
-  for (const RunContact& run : runs) felt.push_back(rows_of(*run.taxels, sample));
+  for (const RunContact& run : runs) felt.push_back(meshes::samples_of(*run.taxels).back());
   const Taxels first = felt.front();
-  if (std::ranges::any_of(felt, [&](Taxels taxels) { return taxels.size() != first.size(); }))
-    return {};
+  const auto is_other = [&](Taxels taxels) {
+    return taxels.size() != first.size() || taxels.front().sample != first.front().sample;
+  };
+  if (std::ranges::any_of(felt, is_other)) return {};
   double highest = 0.0, sheared = 0.0;
   for (const Taxels taxels : felt) {
     highest = std::max(highest, highest_of(taxels, normal_stress_of));
@@ -145,10 +131,6 @@ Chapter skin_chapter(const std::vector<RunContact>& runs, const std::string& nam
   }
   const bool is_sheared = sheared > 1e-3 * highest;
   ChapterData chapter("skin");
-  const std::string prefix = name.empty() ? "" : fmt::format("press{}_", number);
-  chapter.id = prefix + chapter.id;
-  chapter["prefix"] = prefix;
-  chapter["name"] = name;
   chapter["count"] = std::to_string(first.size());
   chapter["depth"] = length(first.front().indentation);
   chapter["sheared"] = is_sheared;
@@ -166,8 +148,7 @@ Chapter skin_chapter(const std::vector<RunContact>& runs, const std::string& nam
   map.width = map.columns == 1 ? 560 : 480 * map.columns;
   map.height = 60 + 380 * rows;
   chapter.figures = {std::move(map), force_figure(runs)};
-  for (Figure& figure : chapter.figures) figure.name.insert(0, prefix);
-  return written(std::move(chapter));
+  return written_of(std::move(chapter), name, number);
 }
 
 }  // namespace fingertip::studies::report::inline chapters::inline press

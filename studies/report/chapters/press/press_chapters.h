@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "studies/files/real_time_record.h"
-#include "studies/report/page/document.h"
+#include "studies/report/page/words.h"
 #include "studies/report/results/contact_comparison.h"
 #include "studies/report/results/grasp_run.h"
 #include "studies/report/results/moving_press.h"
@@ -55,17 +55,19 @@ SampleRange moved_along_plane(const meshes::PressResponse& response);
 Table sample_table(SampleRange samples, const std::vector<SampleColumn>& over);
 /// Stages of a program: when they were, force at both ends.
 Table stage_table(const std::vector<StageEntry>& stages);
+/// written() of a template that knows a name and the prefix of its ids: those of a press of a
+/// study, of which several stand on one page; both empty without a name.
+Chapter written_of(ChapterData chapter, const std::string& name, std::size_t number);
 /// Pressure and shear of runs beside the first one, of that alone where it is alone; without blocks
 /// when no depth has a field.
-Chapter contact_chapter(const ContactComparison& contacts);
-/// The same of a press of a study beside its continuum, the first of both, with what held the plane
-/// back where it moved; the `number`-th on the page.
-Chapter contact_chapter(const ContactComparison& contacts, const std::string& name,
-                        std::size_t number);
+/// Of a press of a study, the `number`-th on its page, with a name: what held the plane back, too,
+/// where it moved.
+Chapter contact_chapter(const ContactComparison& contacts, const std::string& name = "",
+                        std::size_t number = 0);
 /// Of the continuum and the lattices.
 Chapter contact_chapter(const RunData& run);
-/// What each taxel feels at the last sample, of one run or of two and their difference, and all of
-/// them together; without blocks when there is none.
+/// What each taxel feels at the last sample, of runs side by side, and all of them together;
+/// without blocks where a run has no skin, or another one.
 Chapter skin_chapter(const std::vector<RunContact>& runs, const std::string& name = "",
                      std::size_t number = 0);
 /// Force and contact radius of one press; without blocks when it has no sample. Of a program the

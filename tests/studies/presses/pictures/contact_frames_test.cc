@@ -1,7 +1,6 @@
 #include "studies/presses/pictures/contact_frames.h"
 
 #include "meshes/press/contact_field.h"
-#include "meshes/tables/table_rows.h"
 #include "tests/expectations.h"
 #include "tests/studies/presses/pictures/vtk_reader.h"
 #include "tests/temporary_folder.h"
@@ -22,8 +21,7 @@ TEST(ContactFrames, HoldWhatTheFieldSays) {
   field[1].shear = {30.0, -20.0, 0.0};
   field[2].state = meshes::ContactState::slip;
   field[0].normal_traction = field[2].normal_traction = 1.0;
-  meshes::write_rows(field, folder / "contact_field.csv");
-  studies::write_contact_frames(folder.path());
+  studies::write_contact_frames(field, folder.path());
   const std::string series = read_text(folder / "contact/contact.pvd");
   EXPECT_TRUE(says(series, "timestep=\"2\" part=\"0\" file=\"frame_0000.vtu\""));
   EXPECT_TRUE(says(series, "timestep=\"3\" part=\"0\" file=\"frame_0001.vtu\""));
@@ -39,8 +37,7 @@ TEST(ContactFrames, HoldWhatTheFieldSays) {
   EXPECT_EQ(tractions.at(0), 30.0F);
   EXPECT_EQ(tractions.at(2), -400.0F);
   // Of another run in the same folder nothing stays.
-  meshes::write_rows(std::vector<meshes::ContactPoint>{field[0]}, folder / "contact_field.csv");
-  studies::write_contact_frames(folder.path());
+  studies::write_contact_frames(std::vector<meshes::ContactPoint>{field[0]}, folder.path());
   EXPECT_FALSE(std::filesystem::exists(folder / "contact/frame_0001.vtu"));
 }
 
