@@ -22,9 +22,12 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using meshes::Vector3;
 
 /// Patches across the half width of the contact at the smallest depth that matters.
 constexpr double patches = 80.0;
+/// Where each is asked for its distance, at every indentation.
+constexpr double patches_by_distance = 20.0;
 /// That depth over the whole.
 constexpr double shallow = 1.0 / 12.0;
 /// Difference of gaps over the depth that no force shows.
@@ -34,21 +37,30 @@ constexpr double finest = 1e-3, coarsest = 1e-2;
 /// Exponents of power laws among which is sought.
 constexpr double highest_power = 4.0;
 
+/// A curve and the overlap of each of its samples.
+struct Samples {
+  Samples(const ForceCurve& forces, const Overlaps& overlaps) : curve(forces) {
+    for (const double at : curve.indentation) overlap.push_back(overlaps(at));
+  }
+  ForceCurve curve;
+  std::vector<Overlap> overlap;
+};
+
 /// Forces of laws with coefficient one over those of the curve: a row per sample.
 template <typename Laws>
-MatrixXd shares(const ForceCurve& curve, const GapField& field, const Laws& laws) {
-  MatrixXd matrix(Eigen::Index(curve.force.size()), Eigen::Index(laws.size()));
+MatrixXd shares(const Samples& samples, const Laws& laws) {
+  MatrixXd matrix(Eigen::Index(samples.overlap.size()), Eigen::Index(laws.size()));
   for (Eigen::Index j = 0; j < matrix.rows(); ++j)
     for (Eigen::Index k = 0; k < matrix.cols(); ++k)
-      matrix(j, k) = force_of(laws[std::size_t(k)], field, curve.indentation[std::size_t(j)]) /
-                     curve.force[std::size_t(j)];
+      matrix(j, k) = force_of(laws[std::size_t(k)], samples.overlap[std::size_t(j)]) /
+                     samples.curve.force[std::size_t(j)];
   return matrix;
 }
 
 /// Coefficients >= 0 by which the laws add up to the curve.
 template <typename Laws>
-VectorXd sized(const ForceCurve& curve, const GapField& field, const Laws& laws) {
-  MatrixXd matrix = shares(curve, field, laws);
+VectorXd sized(const Samples& samples, const Laws& laws) {
+  MatrixXd matrix = shares(samples, laws);
   const VectorXd size = matrix.colwise().norm();  // d³ in metres is small beside d
   matrix *= size.cwiseInverse().asDiagonal();
   return non_negative_least_squares(matrix, VectorXd::Ones(matrix.rows())).cwiseQuotient(size);
@@ -79,6 +91,48 @@ ForceCurve refined(const ForceCurve& curve) {
     from = to;
   }
   return fine;
+}
+
+struct Patch {
+  double gap = 0.0, area = 0.0;  ///< or depth [m]; projected [m²]
+  Vector3 place = Vector3::Zero();
+};
+
+/// Of the finger's surface, by growing gap at first touch; `across` half the narrowest contact.
+std::vector<Patch> patches_of(const meshes::Geometry& geometry, const meshes::Obstacle& obstacle,
+                              double depth, double across) {
+  const auto shape = meshes::shape_of(geometry);
+  const double narrow =
+      std::sqrt(2.0 * meshes::relative_radius(*shape, obstacle) * shallow * depth);
+  const double radius = geometry.tip_radius;
+  const double spacing = std::clamp(narrow / across, finest * radius, coarsest * radius);
+  const double touch = meshes::first_touch(geometry, 0.0, obstacle);
+  std::vector<Patch> found;
+  for (const meshes::SurfacePoint& point :
+       meshes::surface_points(geometry, meshes::ProfileSurface::contact, spacing)) {
+    const double gap = touch - meshes::height(obstacle, point.position) - point.position.z();
+    if (point.normal.z() > 0.0 && gap < depth)
+      found.push_back({std::max(gap, 0.0), point.area * point.normal.z(), point.position});
+  }
+  std::ranges::sort(found, {}, &Patch::gap);
+  return found;
+}
+
+/// Those of nearly the same gap as one, at the middle of theirs.
+std::vector<Patch> merged(const std::vector<Patch>& sorted, double depth) {
+  std::vector<Patch> few;
+  double begin = -1.0;
+  for (const Patch& patch : sorted) {
+    if (patch.gap > begin + same_gap * depth) {
+      begin = patch.gap;
+      few.push_back(patch);
+      continue;
+    }
+    Patch& mean = few.back();
+    mean.area += patch.area;
+    mean.gap += (patch.gap - mean.gap) * patch.area / mean.area;
+  }
+  return few;
 }
 
 }  // namespace
@@ -115,36 +169,44 @@ double GapField::overlap(double indentation) const {
   return std::accumulate(area.begin(), area.begin() + (end - gap.begin()), 0.0);
 }
 
+Overlap GapField::operator()(double indentation) const {
+  Overlap overlap;
+  for (std::size_t i = 0; i < gap.size() && gap[i] < indentation; ++i) {
+    overlap.depth.push_back(indentation - gap[i]);
+    overlap.area.push_back(area[i]);
+  }
+  return overlap;
+}
+
 GapField gap_field(const meshes::Geometry& geometry, const meshes::Obstacle& obstacle,
                    double depth) {
-  const auto shape = meshes::shape_of(geometry);
-  const double narrow =
-      std::sqrt(2.0 * meshes::relative_radius(*shape, obstacle) * shallow * depth);
-  const double radius = geometry.tip_radius;
-  const double spacing = std::clamp(narrow / patches, finest * radius, coarsest * radius);
-  const double touch = meshes::first_touch(geometry, 0.0, obstacle);
-  std::vector<std::pair<double, double>> patch;
-  for (const meshes::SurfacePoint& point :
-       meshes::surface_points(geometry, meshes::ProfileSurface::contact, spacing)) {
-    const double gap = touch - meshes::height(obstacle, point.position) - point.position.z();
-    if (point.normal.z() > 0.0 && gap < depth)
-      patch.emplace_back(std::max(gap, 0.0), point.area * point.normal.z());
-  }
-  std::ranges::sort(patch);
-  GapField field;  // patches of nearly the same gap as one, at the middle of theirs
-  double begin = -1.0;
-  for (const auto& [gap, area] : patch) {
-    if (gap > begin + same_gap * depth) {
-      begin = gap;
-      field.gap.push_back(gap);
-      field.area.push_back(area);
-      continue;
-    }
-    double &mean = field.gap.back(), &sum = field.area.back();
-    sum += area;
-    mean += (gap - mean) * area / sum;
+  GapField field;
+  for (const Patch& patch : merged(patches_of(geometry, obstacle, depth, patches), depth)) {
+    field.gap.push_back(patch.gap);
+    field.area.push_back(patch.area);
   }
   return field;
+}
+
+Overlaps surface_distances(const meshes::Geometry& geometry, const meshes::Obstacle& obstacle,
+                           double depth) {
+  const auto shape = meshes::shape_of(geometry);
+  const auto parts = patches_of(geometry, obstacle, depth, patches_by_distance);
+  return [shape, parts, depth](double indentation) {
+    std::vector<Patch> found;
+    for (const Patch& part : parts) {
+      if (!(part.gap < indentation)) break;
+      const Vector3 place = part.place - (indentation - part.gap) * Vector3::UnitZ();
+      found.push_back({shape->nearest(meshes::ProfileSurface::contact, place).distance, part.area});
+    }
+    std::ranges::sort(found, {}, &Patch::gap);
+    Overlap overlap;
+    for (const Patch& patch : merged(found, depth)) {
+      overlap.depth.push_back(patch.gap);
+      overlap.area.push_back(patch.area);
+    }
+    return overlap;
+  };
 }
 
 double PressureTable::at(double d) const {
@@ -169,7 +231,7 @@ bool PressurePolynomial::grows_to(double d) const {
   return std::min({slope(0.0), slope(turn), slope(d)}) >= 0.0;
 }
 
-PressureTable fitted_table(const ForceCurve& curve, const GapField& field) {
+PressureTable fitted_table(const ForceCurve& curve, const Overlaps& overlaps) {
   check_growth(curve);
   const double first = curve.indentation.front();
   std::vector<double> knots = {0.25 * first, 0.5 * first};
@@ -177,7 +239,7 @@ PressureTable fitted_table(const ForceCurve& curve, const GapField& field) {
   std::vector<Ramp> ramps;
   double begin = 0.0;
   for (const double end : knots) ramps.push_back({std::exchange(begin, end), end});
-  const VectorXd rise = sized(refined(curve), field, ramps);
+  const VectorXd rise = sized(Samples(refined(curve), overlaps), ramps);
   PressureTable table{{0.0}, {0.0}};
   for (std::size_t k = 0; k < ramps.size(); ++k) {
     table.penetration.push_back(ramps[k].end);
@@ -186,13 +248,14 @@ PressureTable fitted_table(const ForceCurve& curve, const GapField& field) {
   return table;
 }
 
-PowerLaw fitted_power(const ForceCurve& curve, const GapField& field) {
+PowerLaw fitted_power(const ForceCurve& curve, const Overlaps& overlaps) {
   check_growth(curve);
+  const Samples samples(curve, overlaps);
   const auto with = [&](double exponent) {
     // Of penetrations over the depth, lest stiffness become a number without bounds.
     const double depth = curve.indentation.back();
     const std::vector<PowerLaw> law{{std::pow(depth, -exponent), exponent}};
-    const VectorXd share = shares(curve, field, law).col(0);
+    const VectorXd share = shares(samples, law).col(0);
     const double size = share.sum() / share.squaredNorm();
     return std::pair(PowerLaw{size * law[0].stiffness, exponent},
                      (size * share.array() - 1.0).square().sum());
@@ -203,21 +266,23 @@ PowerLaw fitted_power(const ForceCurve& curve, const GapField& field) {
   return with(found.first).first;
 }
 
-PressurePolynomial fitted_polynomial(const ForceCurve& curve, const GapField& field) {
+PressurePolynomial fitted_polynomial(const ForceCurve& curve, const Overlaps& overlaps) {
   check_growth(curve);
+  const Samples samples(curve, overlaps);
   const std::vector<PressurePolynomial> powers{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-  const VectorXd free = shares(curve, field, powers)
+  const VectorXd free = shares(samples, powers)
                             .colPivHouseholderQr()
                             .solve(VectorXd::Ones(Eigen::Index(curve.force.size())));
   const PressurePolynomial law{free[0], free[1], free[2]};
   if (law.grows_to(curve.indentation.back())) return law;
-  const VectorXd size = sized(curve, field, powers);
+  const VectorXd size = sized(samples, powers);
   return {size[0], size[1], size[2]};
 }
 
-PressurePolynomial fitted_line(const ForceCurve& curve, const GapField& field) {
+PressurePolynomial fitted_line(const ForceCurve& curve, const Overlaps& overlaps) {
   check_growth(curve);
-  return {sized(curve, field, std::vector<PressurePolynomial>{{1.0, 0.0, 0.0}})[0], 0.0, 0.0};
+  const Samples samples(curve, overlaps);
+  return {sized(samples, std::vector<PressurePolynomial>{{1.0, 0.0, 0.0}})[0], 0.0, 0.0};
 }
 
 double HydroelasticBall::force(const meshes::Obstacle& obstacle, double indentation) const {

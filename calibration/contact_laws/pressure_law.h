@@ -8,12 +8,20 @@
 /// is p ~ d^(1/2).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "meshes/press/obstacle.h"
 #include "meshes/shape/geometry.h"
 
 namespace fingertip::calibration::inline contact_laws {
+
+/// How deep parts of an overlap are, and their areas, projected along the press.
+struct Overlap {
+  std::vector<double> depth, area;  ///< [m], [m²]
+};
+/// At an indentation [m].
+using Overlaps = std::function<Overlap(double)>;
 
 /// Gaps between a finger and an obstacle at first touch, over the projected area of what may touch.
 struct GapField {
@@ -22,12 +30,19 @@ struct GapField {
 
   /// Projected area of the overlap at an indentation [m²].
   double overlap(double indentation) const;
+  /// Deep as the press goes.
+  Overlap operator()(double indentation) const;
 };
 
 /// Patches of a few hundredths of the depth's contact, whose gaps are below `depth` [m]. Throws
 /// InvalidInput for an invalid geometry.
 GapField gap_field(const meshes::Geometry& geometry, const meshes::Obstacle& obstacle,
                    double depth);
+
+/// The obstacle's surface in the finger, deep as the finger's surface is away: simulators that know
+/// shapes by their signed distance. Patches some times as large as a gap_field's. Throws likewise.
+Overlaps surface_distances(const meshes::Geometry& geometry, const meshes::Obstacle& obstacle,
+                           double depth);
 
 /// p(d) [Pa] by straight lines between knots from (0, 0) on; steeper as the last piece beyond.
 struct PressureTable {
@@ -49,12 +64,12 @@ struct PressurePolynomial {
   bool grows_to(double d) const;
 };
 
-/// Force of a law at an indentation [N].
+/// Force of a law [N].
 template <typename Law>
-double force_of(const Law& law, const GapField& field, double indentation) {
+double force_of(const Law& law, const Overlap& overlap) {
   double force = 0.0;
-  for (std::size_t i = 0; i < field.gap.size() && field.gap[i] < indentation; ++i)
-    force += field.area[i] * law.at(indentation - field.gap[i]);
+  for (std::size_t i = 0; i < overlap.depth.size(); ++i)
+    force += overlap.area[i] * law.at(overlap.depth[i]);
   return force;
 }
 
@@ -74,13 +89,13 @@ void check_growth(const ForceCurve& curve);
 /// has a knot at every indentation of it, and two before, and never falls: where a curve asks for
 /// that, forces are not met. Throws InvalidInput unless the curve has two samples or more,
 /// increasing and positive.
-PressureTable fitted_table(const ForceCurve& curve, const GapField& field);
-PowerLaw fitted_power(const ForceCurve& curve, const GapField& field);
+PressureTable fitted_table(const ForceCurve& curve, const Overlaps& overlaps);
+PowerLaw fitted_power(const ForceCurve& curve, const Overlaps& overlaps);
 /// Where the best one falls within the curve: the best one without a negative coefficient.
-PressurePolynomial fitted_polynomial(const ForceCurve& curve, const GapField& field);
+PressurePolynomial fitted_polynomial(const ForceCurve& curve, const Overlaps& overlaps);
 /// Only the first coefficient: p = k d. Drake's hydroelastic modulus of a body with extent H is k
 /// H.
-PressurePolynomial fitted_line(const ForceCurve& curve, const GapField& field);
+PressurePolynomial fitted_line(const ForceCurve& curve, const Overlaps& overlaps);
 
 /// A ball of Drake's hydroelastic contact (R. Elandt et al., IROS 2019): within it is a pressure
 /// that grows to its centre; a rigid body takes the pressure on its surface.

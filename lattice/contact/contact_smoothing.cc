@@ -21,8 +21,47 @@ Vector3 across(const Vector3& vector, const Vector3& normal) {
 /// What acts on a particle [N].
 struct Load {
   double pressed = 0.0, profile = 0.0;  ///< by pressures: the ties', those of the profile
-  Vector3 sheared = Vector3::Zero();
+  double slides = 0.0;                  ///< by pressures of ties that slide along the shear
+  Vector3 sheared = Vector3::Zero();    ///< by the ties' shear
 };
+using Loads = std::unordered_map<std::uint32_t, Load>;
+
+/// Of the load of a point, what slides along its shear where it slips: of 0.65 to 0.8 the areas are
+/// nearest those of the continuum (studies/MEASUREMENTS.md, cases 19 to 21).
+constexpr double least_sliding = 0.75;
+
+/// At a point, of profile 1.
+struct Tractions {
+  double pressed = 0.0, slides = 0.0;  ///< [Pa]
+  Vector3 sheared = Vector3::Zero();   ///< [Pa]
+
+  Tractions(const TiedPoint& tied, const Loads& loads) {
+    for (std::size_t c = 0; c < 8; ++c) {
+      const auto load = loads.find(tied.particles[c]);
+      if (load == loads.end() || !(load->second.profile > 0.0)) continue;
+      const double share = tied.weights[c] / load->second.profile;
+      pressed += share * load->second.pressed;
+      slides += share * load->second.slides;
+      sheared += share * load->second.sheared;
+    }
+  }
+};
+
+/// Tells the particles what slides around them, of ties whose shear is along that of the field.
+void add_sliding(std::span<const TiedPoint> points, Loads& loads) {
+  for (const TiedPoint& tied : points) {
+    const ContactPoint& point = tied.point;
+    if (!tied.touches() || point.state != meshes::ContactState::slip) continue;
+    const Vector3 around = Tractions(tied, loads).sheared;
+    const double sizes = around.norm() * point.shear.norm(),
+                 along = point.shear.isZero(0.0) ? 1.0  // without friction
+                         : sizes > 0.0           ? around.dot(point.shear) / sizes
+                                                 : 0.0;
+    for (std::size_t c = 0; c < 8; ++c)
+      loads[tied.particles[c]].slides +=
+          tied.weights[c] * point.area * point.normal_traction * along;
+  }
+}
 
 /// Gives `points` the sums of `wanted` by small changes of their forces.
 void restore(std::span<const ContactPoint> wanted, std::vector<ContactPoint>& points) {
@@ -77,7 +116,7 @@ std::vector<ContactPoint> contact_field(std::span<const TiedPoint> points,
   const auto profile = [&](const TiedPoint& tied) {
     return has_profile ? in_ellipse(tied) : double(tied.touches());
   };
-  std::unordered_map<std::uint32_t, Load> loads;
+  Loads loads;
   for (const TiedPoint& tied : points) {
     const double pressure = profile(tied);
     if (!tied.touches() && !(pressure > 0.0)) continue;
@@ -89,23 +128,19 @@ std::vector<ContactPoint> contact_field(std::span<const TiedPoint> points,
       load.sheared += share * tied.point.shear;
     }
   }
+  add_sliding(points, loads);
   std::vector<ContactPoint> raw, smooth;
   for (const TiedPoint& tied : points) {
     if (tied.touches()) raw.push_back(tied.point);
     const double pressure = profile(tied);
     if (!(pressure > 0.0)) continue;
-    double pressed = 0.0;
-    Vector3 sheared = Vector3::Zero();
-    for (std::size_t c = 0; c < 8; ++c) {
-      const Load& load = loads[tied.particles[c]];
-      if (!(load.profile > 0.0)) continue;
-      pressed += tied.weights[c] * load.pressed / load.profile;
-      sheared += tied.weights[c] / load.profile * load.sheared;
-    }
-    if (!(pressed > 0.0)) continue;
+    const Tractions here(tied, loads);
+    if (!(here.pressed > 0.0)) continue;
     ContactPoint& point = smooth.emplace_back(tied.point);
-    point.normal_traction = pressure * pressed;
-    point.shear = across(pressure * sheared, point.normal);
+    point.normal_traction = pressure * here.pressed;
+    point.shear = across(pressure * here.sheared, point.normal);
+    point.state = here.slides >= least_sliding * here.pressed ? meshes::ContactState::slip
+                                                              : meshes::ContactState::stick;
   }
   raw = unfolded(raw, sectors);
   smooth = unfolded(smooth, sectors);

@@ -33,6 +33,9 @@ struct TiedPoint {
 /// radius the field is within 2.3 % of the continuum's p0 in L2, from five on within 1.6 %
 /// (lattice/MEASUREMENTS.md, contact). Where the contact is no ellipse, q is 1 where it touches.
 ///
+/// Ties slide where their own load is low, though the contact around them sticks. A point slips
+/// where three quarters of its load are on ties that slide, along the shear of the field.
+///
 /// Sums over the points stay nearly as they are; f_j += |f_j| (a + b × x_j), along the normals
 /// where there is no shear, makes force and torque those of the ties to round-off.
 std::vector<meshes::ContactPoint> contact_field(std::span<const TiedPoint> points,

@@ -25,16 +25,20 @@ constexpr double resolved_patch = 1.25;  // spacings
 constexpr double cost = 2.0;             // of a scaled step, in plain ones
 
 /// A x² + B x³ + D y² + T, at most C, or E z where that is more; never more than half of the force.
+/// Of the profile P x^3/2.
 struct GridError {
-  double contact = 0.0, edge = 0.0, wall = 0.0, point = 0.0, points = 0.0, ties = 3e-3;
+  double contact = 0.0, edge = 0.0, wall = 0.0, point = 0.0, points = 0.0, profile = 0.0,
+         ties = 3e-3;
   ForceEstimate at(double x, double y, double z) const {
     const double most = std::max(point, std::min(points * z, 0.5)),
                  inside = std::min(wall * y * y + ties, most);
-    return {.contact = std::min((contact + edge * x) * x * x, most - inside), .inside = inside};
+    return {.contact = std::min((contact + edge * x) * x * x, most - inside),
+            .inside = inside,
+            .profile = profile * x * std::sqrt(x)};
   }
 };
-constexpr GridError solid_cells{0.06, 0.15, 0.2, 0.24, 0.15};   // hookean, network
-constexpr GridError springs_alone{0.04, 0.1, 1.7, 0.18, 0.25};  // central
+constexpr GridError solid_cells{0.06, 0.15, 0.2, 0.24, 0.15, 0.3};   // hookean, network
+constexpr GridError springs_alone{0.04, 0.1, 1.7, 0.18, 0.25, 0.5};  // central
 
 /// F = factor (delta^3/2 + layer delta²).
 struct RoughForce {

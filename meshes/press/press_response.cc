@@ -103,6 +103,10 @@ void PressSample::set_errors(double relative) {
   torque_error = moment > left * arm ? relative * (moment + arm) : unknown;
 }
 
+void PressSample::set_pressure_error(double profile) {
+  pressure_error = (force_error / std::abs(normal_force) + profile) * max_pressure;
+}
+
 std::span<const PressSample> PressResponse::pressing() const {
   const auto follows =
       std::ranges::adjacent_find(samples_, [](const PressSample& before, const PressSample& now) {

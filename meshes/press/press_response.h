@@ -36,6 +36,8 @@ struct PressSample {
   double lateral_force_error = unknown;  ///< length of the estimated error of both [N]
   double torque_error = unknown;         ///< length of the estimated error of all three [N m]
   double stage = unknown;                ///< of the press's program, from 1; unknown without one
+  /// Estimated root mean square over the contact of what its pressures are off [Pa].
+  double pressure_error = unknown;
 
   /// Radius, area, mean and largest pressure; the normal force must be known by then.
   void set_contact(double radius, double peak);
@@ -49,6 +51,9 @@ struct PressSample {
   /// (1 - 2 nu)/(2 - 2 nu), 1/8 at nu = 0.43; relative (|T| + a (|N| + |Q|)), for its place is
   /// known to that share of the contact's radius a. Unknown where symmetry leaves no Q or no T.
   void set_errors(double relative);
+  /// By what its force is off, and besides by `profile`, over the largest pressure; unknown where
+  /// one of these is.
+  void set_pressure_error(double profile);
 };
 
 /// The columns of response.csv.
@@ -57,15 +62,17 @@ consteval auto fields_of(const PressSample*) {
                                lateral_force_y, torque_x, torque_y, torque_z, contact_radius,
                                max_pressure, force_error, time, contact_area, mean_pressure,
                                lateral_displacement, twist, spin_torque, lateral_force_error,
-                               torque_error, stage)
+                               torque_error, stage, pressure_error)
       .in("m", "indentation contact_radius lateral_displacement")
       .in("rad", "twist")
       .in("N", "normal_force lateral_force_x lateral_force_y force_error lateral_force_error")
       .in("N m", "torque_x torque_y torque_z spin_torque torque_error")
       .in("m^2", "contact_area")
-      .in("Pa", "mean_pressure max_pressure")
+      .in("Pa", "mean_pressure max_pressure pressure_error")
       .in("s", "time")
-      .if_known("lateral_displacement twist spin_torque lateral_force_error torque_error stage");
+      .if_known(
+          "lateral_displacement twist spin_torque lateral_force_error torque_error stage "
+          "pressure_error");
 }
 
 /// A curve of samples by increasing indentation, and then, where a lateral motion or a twist

@@ -69,6 +69,31 @@ double hertz_error(const lattice::PressSetup& setup, Field field) {
   return std::sqrt(squares / area);
 }
 
+/// Radii of discs as large as a sample's contact and as its part that sticks [m].
+struct Discs {
+  double contact = 0.0, stick = 0.0;
+
+  explicit Discs(Field sample) {
+    for (const ContactPoint& point : sample) {
+      contact += point.area;
+      if (point.state == meshes::ContactState::stick) stick += point.area;
+    }
+    for (double* disc : {&contact, &stick}) *disc = std::sqrt(*disc / std::numbers::pi);
+  }
+};
+
+double stick_radius_error(Field press, Field wanted) {
+  const auto own = meshes::samples_of(press), others = meshes::samples_of(wanted);
+  if (own.empty() || own.size() != others.size()) return meshes::unknown;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (own[i].front().sample != others[i].front().sample) return meshes::unknown;
+    const Discs mine(own[i]), theirs(others[i]);
+    worst = larger(worst, std::abs(mine.stick - theirs.stick) / theirs.contact);
+  }
+  return worst;
+}
+
 double taxel_error(const std::vector<TaxelRow>& press, const std::vector<TaxelRow>& wanted) {
   if (wanted.empty() || press.size() != wanted.size()) return meshes::unknown;
   double scale = 0.0;
@@ -106,6 +131,8 @@ ContactErrors contact_errors(const lattice::PressSetup& setup, const fs::path& p
     errors.field = contacts.depths.back().difference(1);
     errors.hertz = hertz_error(setup, contacts.depths.back().fields.front());
   }
+  if (setup.protocol.contact == meshes::ContactMode::coulomb)
+    errors.stick_radius = stick_radius_error(own_field, wanted_field);
   const auto felt = rows_in<TaxelRow>(press / "taxels.csv");
   errors.taxels = taxel_error(felt, rows_in<TaxelRow>(reference / "taxels.csv"));
   for (const auto sample : meshes::samples_of(felt))

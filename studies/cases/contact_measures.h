@@ -14,6 +14,9 @@ struct ContactErrors {
   /// Largest difference of a force aside and of a torque about the normal, over the reference's
   /// largest.
   double lateral = meshes::unknown, torque = meshes::unknown;
+  /// Under Coulomb friction: of the radius of a disc as large as the part that sticks, over that of
+  /// the reference's contact; of all samples the largest magnitude.
+  double stick_radius = meshes::unknown;
   /// Root mean square over taxels and stresses of the difference of the readings, over the
   /// reference's largest; of all samples the largest.
   double taxels = meshes::unknown;

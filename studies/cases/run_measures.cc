@@ -284,6 +284,7 @@ std::vector<RunMeasure> all_measures() {
       of_contact("radius_error", [](const ContactErrors& e) { return e.field.radius; }),
       of_contact("lateral_error", [](const ContactErrors& e) { return e.lateral; }),
       of_contact("torque_error", [](const ContactErrors& e) { return e.torque; }),
+      of_contact("stick_radius_error", [](const ContactErrors& e) { return e.stick_radius; }),
       of_contact("taxel_error", [](const ContactErrors& e) { return e.taxels; }),
       of_contact("skin_force_error", [](const ContactErrors& e) { return e.skin_force; }),
       of_contact("hertz_error", [](const ContactErrors& e) { return e.hertz; }),

@@ -27,6 +27,7 @@ struct Format {
 const std::map<std::string, Format>& formats() {
   static const std::map<std::string, Format> all = {
       {"pressure-law", {pressure_law_export}},
+      {"newton", {newton_export}},
       {"mujoco", {mujoco_export, ContactCurves::Of::contacts, false}},
       {"drake", {drake_export}},
       {"sofa", {sofa_export, ContactCurves::Of::body}},

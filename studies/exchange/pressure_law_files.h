@@ -29,4 +29,8 @@ FINGERTIP_FIELDS(PressureLawFile, finger, obstacle, contact, depth, stiffness, e
 /// Throws InvalidInput where that curve does not grow.
 ContactExport pressure_law_export(const ContactSource& source);
 
+/// The table as newton's pressure over signed distance, newton_finger.py. Throws
+/// likewise.
+ContactExport newton_export(const ContactSource& source);
+
 }  // namespace fingertip::studies::inline exchange

@@ -114,6 +114,7 @@ Json frame_json(const LiveFrame& frame, std::size_t rows) {
                 {{"point", vector_json(picture.finger.plane.point)},
                  {"normal", vector_json(picture.finger.plane.normal)}}},
                {"masses", picture.finger.boundary.size()},
+               {"contact", picture.finger.contact.size()},
                {"rows", rows}};
   if (picture.measured.contact) {
     json["touching"] = picture.measured.contact->touching;
@@ -257,6 +258,13 @@ std::string encode_frame(const LiveFrame& frame, const std::vector<LiveRow>& row
     }
   }
   for (const std::uint8_t held : frame.picture.finger.held) bytes.push_back(char(held));
+  while (bytes.size() % 4 != 0) bytes.push_back('\0');
+  for (const meshes::ContactPoint& point : frame.picture.finger.contact) {
+    for (const double coordinate : point.place) append_float(bytes, coordinate);
+    for (const double value : {std::sqrt(point.area), point.normal_traction, point.shear.norm(),
+                               double(point.state == meshes::ContactState::slip)})
+      append_float(bytes, value);
+  }
   return bytes;
 }
 

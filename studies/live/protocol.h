@@ -84,7 +84,8 @@ std::string encode_scene(const LiveScene& scene);
 std::string encode_error(const std::string& text);
 /// A frame: uint32 length of the JSON text, the text padded with blanks so that what follows starts
 /// at a multiple of 4, float32 places (3 per mass) and rows (6 each), a byte per mass that tells
-/// whether the obstacle holds it. Little-endian.
+/// whether the obstacle holds it, bytes up to a multiple of 4, float32 points of the contact (7
+/// each: place, side of a square of its area, pressure, shear, 1 where it slips). Little-endian.
 std::string encode_frame(const LiveFrame& frame, const std::vector<LiveRow>& rows);
 
 }  // namespace fingertip::studies::inline live

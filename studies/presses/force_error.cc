@@ -108,6 +108,16 @@ PressResponse with_force_error(const PressResponse& response, const PressRespons
   return PressResponse(std::move(samples));
 }
 
+PressResponse with_pressure_error(const PressResponse& response,
+                                  const lattice::ForceEstimator& estimator) {
+  std::vector<PressSample> samples = response.samples();
+  for (PressSample& sample : samples) {
+    const auto estimate = estimator.of(sample);
+    sample.set_pressure_error(estimate ? estimate->profile : meshes::unknown);
+  }
+  return PressResponse(std::move(samples));
+}
+
 PressResponse with_estimated_error(const PressResponse& response,
                                    const lattice::ForceEstimator& estimator) {
   std::vector<PressSample> samples = response.samples();
@@ -115,7 +125,7 @@ PressResponse with_estimated_error(const PressResponse& response,
     const auto estimate = estimator.of(sample);
     sample.set_errors(estimate ? estimate->sum() : meshes::unknown);
   }
-  return PressResponse(std::move(samples));
+  return with_pressure_error(PressResponse(std::move(samples)), estimator);
 }
 
 }  // namespace fingertip::studies::inline presses

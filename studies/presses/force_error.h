@@ -40,8 +40,13 @@ std::string error_words(const ForceErrorEntry& entry);
 meshes::PressResponse with_force_error(const meshes::PressResponse& response,
                                        const meshes::PressResponse& continuum);
 
-/// `response` with the estimate as its errors (PressSample::set_errors); unknown where there is
-/// none.
+/// `response`, whose force_error is known, with pressure_error: the same share of the largest
+/// pressure, and ForceEstimate::profile.
+meshes::PressResponse with_pressure_error(const meshes::PressResponse& response,
+                                          const lattice::ForceEstimator& estimator);
+
+/// `response` with the estimate as its errors (PressSample::set_errors, set_pressure_error);
+/// unknown where there is none.
 meshes::PressResponse with_estimated_error(const meshes::PressResponse& response,
                                            const lattice::ForceEstimator& estimator);
 

@@ -280,6 +280,11 @@ TEST_F(LiveSolidPage, IsPressedAndPulledAsAnyFinger) {
                              "/[0-9.]+/)[0])")
                   .get<double>(),
               1e-3 * most, 1e-3);
+  // What touches is painted: here all of it sticks.
+  EXPECT_EQ(page_->evaluate("fingertipPage.scene.pressed.geometry.attributes.position.count"),
+            simulation_->frame()->picture.finger.contact.size());
+  EXPECT_EQ(page_->evaluate("document.getElementById('pressure-legend').hidden"), false);
+  EXPECT_EQ(page_->evaluate("document.getElementById('slip-legend').hidden"), true);
   page_->click("#controller");  // off: the rod is free
   page_->drag("#handle", 60.0, 0.0);
   ASSERT_TRUE(page_->wait_for("'held' in document.getElementById('handle').dataset"));

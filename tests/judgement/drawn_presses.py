@@ -2,7 +2,7 @@
 """Draws lattice presses by a seed and judges the errors that they tell of their forces.
 
     tests/judgement/drawn_presses.py [--seed 2] [--presses 300] [--only CLASS ...]
-                                     [--auto | --edges | --aside | --continuum]
+                                     [--auto | --edges | --aside | --fields | --continuum]
                                      [--rows FILE] [--program fingertip]
 
 Each press is run twice: with `run.error = estimate`, which is judged, and with the continuum, which
@@ -19,11 +19,15 @@ With --edges the same presses are made on cylinders and rounded edges, whose tru
 With --aside domes are tilted, slid by a quarter of the depth or meet a ball beside the axis, those in
 time under the PID controller: the errors of lateral force and torque are judged as well.
 
+With --fields it is the error of the pressures, point by point, that is judged, in those of the
+presses whose truth is a meridian's.
+
 With --continuum it is the continuum that is pressed, to 4, 2, 1 and on a meridian 0.1 %, and its own
 error that is judged, by a continuum to a tenth of what that tells at best (a solid's to a third).
 """
 
 import argparse
+import bisect
 import concurrent.futures
 import csv
 import json
@@ -302,6 +306,62 @@ def measure(bench, number, drawn):
     return found
 
 
+def rings(points):
+    """[(radius [m], pressure [Pa])] of a meridian's contact, from the axis on."""
+    found = {}
+    for point in points:
+        radius = math.hypot(float(point["x [m]"]), float(point["y [m]"]))
+        found[round(1e9 * radius)] = float(point["normal_traction [Pa]"])
+    return sorted((1e-9 * place, pressure) for place, pressure in found.items())
+
+
+def pressure_at(table, radius):
+    """Straight between rings; nothing from half a ring beyond the last on."""
+    after = bisect.bisect_left(table, (radius, 0.0))
+    if after == 0:
+        return table[0][1]
+    if after < len(table):
+        (r, p), (s, q) = table[after - 1], table[after]
+        return p + (q - p) * (radius - r) / (s - r)
+    (r, p), half = table[-1], 0.5 * (table[-1][0] - table[-2][0])
+    return max(0.0, p * (1.0 - (radius - r) / half))
+
+
+def fields_of(folder):
+    """The points of each sample, by its number."""
+    points = {}
+    for row in rows_of(folder / "contact_field.csv"):
+        points.setdefault(int(row["sample"]), []).append(row)
+    return points
+
+
+def measure_fields(bench, number, drawn):
+    """As measure(), of the pressures: root mean square over the contact, over the largest."""
+    if not drawn[2]["flat"]:
+        return []
+    found = measure(bench, number, drawn)
+    if found and isinstance(found[0], str):
+        return found
+    out = bench.folder / f"press{number}"
+    own, true = fields_of(out), fields_of(out / "truth")
+    numbers = {place_of(row): i + 1 for i, row in enumerate(rows_of(out / "truth/response.csv"))}
+    told, pressures = rows_of(out / "response.csv"), []
+    for sample in found:
+        i = next(i for i, row in enumerate(told) if float(row["indentation [m]"]) == sample["depth"])
+        table = rings(true.get(numbers[place_of(told[i])], []))
+        bar = float(told[i].get("pressure_error [Pa]") or "nan")
+        if len(table) < 8 or i + 1 not in own or math.isnan(bar):
+            continue
+        most, off, area = max(p for _, p in table), 0.0, 0.0
+        for point in own[i + 1]:
+            radius = math.hypot(float(point["x [m]"]), float(point["y [m]"]))
+            part = float(point["area [m^2]"])
+            off += part * (float(point["normal_traction [Pa]"]) - pressure_at(table, radius)) ** 2
+            area += part
+        pressures.append(sample | {"error": math.sqrt(off / area) / most, "bar": bar / most})
+    return pressures
+
+
 def aside(row, true, sample, column, name, axes, unit):
     """Of a vector that symmetry leaves: its error and bar, over the force."""
     bar = float(row.get(f"{column}_error [{unit}]") or "nan")
@@ -334,12 +394,14 @@ def main():
     mode.add_argument("--auto", action="store_true")
     mode.add_argument("--edges", action="store_true")
     mode.add_argument("--aside", action="store_true")
+    mode.add_argument("--fields", action="store_true")
     mode.add_argument("--continuum", action="store_true")
     parser.add_argument("--rows")
     asked = parser.parse_args()
     numbers = random.Random(asked.seed)
     draw_one = draw_continuum if asked.continuum else draw
-    measure_one = measure_continuum if asked.continuum else measure
+    measure_one = measure_continuum if asked.continuum else \
+        measure_fields if asked.fields else measure
     drawn = [draw_one(numbers) for _ in range(asked.presses)]
     drawn = [(i, d) for i, d in enumerate(drawn) if set(asked.only) <= set(d[0])]
     for asked_for, changed in ((asked.auto, automatic), (asked.edges, on_edge),

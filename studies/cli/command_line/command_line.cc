@@ -54,8 +54,8 @@ constexpr Verb verbs[] = {
      "geometry.bond=...)",
      config_options | out_options},
     {"explain", "explain a configuration key, or list all", "KEY", "section.key", 0U},
-    {"init", "write a commented configuration with every key", "FILE",
-     "the file (default: standard output)", out_options},
+    {"init", "write a configuration: a ready start, or one with every key, commented", "FILE",
+     "a start's name (--list), or the file of all keys (default: standard output)", out_options},
     {"bench", "measure speed: kernels, presses against the clock, peers", "", "",
      run_options | out_options},
     {"doctor", "tell versions, programs, folders and cores", "", "", 0U},
@@ -124,15 +124,16 @@ void add_sweep(CLI::App& sub, CommandLine& line) {
 }
 
 void add_export(CLI::App& sub, CommandLine& line) {
-  sub.add_option(
-         "--format", line.format,
-         "lammps: an undamped lattice ([exchange]); fitted to the continuum, pressure-law: "
-         "pressure over penetration, mujoco: a rigid geom and a flex, drake: a hydroelastic ball, "
-         "sofa, vtk: a soft body of tetrahedra, all: each of them and a table of their errors, "
-         "fmu: "
-         "the lattice as a functional mock-up unit")
-      ->check(
-          CLI::IsMember({"lammps", "pressure-law", "mujoco", "drake", "sofa", "vtk", "all", "fmu"}))
+  sub.add_option("--format", line.format,
+                 "lammps: an undamped lattice ([exchange]); fitted to the continuum, pressure-law: "
+                 "pressure over penetration, newton: the same as its hydroelastic contact takes "
+                 "it, mujoco: a "
+                 "rigid geom and a flex, drake: a hydroelastic ball, sofa, vtk: a soft body of "
+                 "tetrahedra, all: each of them and a table of their errors, "
+                 "fmu: "
+                 "the lattice as a functional mock-up unit")
+      ->check(CLI::IsMember(
+          {"lammps", "pressure-law", "newton", "mujoco", "drake", "sofa", "vtk", "all", "fmu"}))
       ->capture_default_str();
   sub.add_flag("--lossy", line.lossy, "go on where the format cannot say all of the model");
 }
@@ -187,6 +188,8 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
   }
   if (name == "live") add_live(sub, line);
   if (name == "sweep") add_sweep(sub, line);
+  if (name == "init")
+    sub.add_flag("--list", line.list, "tell the ready starts that init NAME writes");
   if (name == "shape") add_shape(sub, line);
   if (name == "export") add_export(sub, line);
   if (name == "bench") add_bench(sub, line);

@@ -211,8 +211,6 @@ meshes::PressResponse press_continuum(Session& session, lattice::ModelKind model
   if (source.continuum->axisymmetric()) planned.job.resumable = false;
   meshes::PressResponse response;
   const std::string failure = failure_of([&] {
-    if (!std::filesystem::exists(reference_program()))
-      throw std::runtime_error("fingertip-fem is not beside this program");
     session.run(planned);
     response = meshes::PressResponse::read_csv(session.path_of(planned) / "response.csv");
   });
@@ -231,8 +229,10 @@ std::optional<ForceErrorEntry> find_force_error(ErrorSource source,
       source.continuum ? press_continuum(session, setup.lattice.model, source)
                        : meshes::PressResponse();
   // Also where neither is wanted: the job has its estimate, and a resumed folder what was found.
-  response = source.estimated ? with_estimated_error(response, lattice::ForceEstimator(setup))
-                              : with_force_error(response, continuum);
+  const lattice::ForceEstimator estimator(setup);
+  response = source.estimated
+                 ? with_estimated_error(response, estimator)
+                 : with_pressure_error(with_force_error(response, continuum), estimator);
   response.write_csv(folder / "response.csv");
   mark_rewritten(folder, "response.csv");
   if (source.statement.empty()) {
@@ -250,6 +250,16 @@ std::optional<ForceErrorEntry> find_force_error(ErrorSource source,
   }
   told.put("force_error", meshes::json_of<nlohmann::ordered_json>(entry));
   return entry;
+}
+
+/// error_source, but for a continuum that is not built yet and not asked for.
+ErrorSource source_at_hand(const LoadedConfig& loaded) {
+  ErrorSource source = error_source(loaded);
+  if (source.continuum && loaded.config.force_error == ForceErrorBy::automatic &&
+      !std::filesystem::exists(reference_program()))
+    return estimated_source(loaded.config.press.lattice.model,
+                            "the continuum is not built (`./fingertip reference` does it)");
+  return source;
 }
 
 }  // namespace
@@ -272,7 +282,7 @@ int run_press(const CommandLine& line) {
   }
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const std::filesystem::path& folder = session.folder().path();
-    const ErrorSource source = error_source(loaded);
+    const ErrorSource source = source_at_hand(loaded);
     if (source.continuum) session.expect_later(reference_job(*source.continuum).weight);
     Job job = press_job(setup, line.movie);
     if (real_time) {

@@ -3,6 +3,7 @@
 
 const element = (id) => document.getElementById(id);
 const rowLength = 6;
+const contactLength = 7;
 const mostPoints = 4000;
 
 class Page {
@@ -67,13 +68,30 @@ class Page {
     const places = new Float32Array(buffer, 4 + length, 3 * frame.masses);
     const rows = new Float32Array(buffer, 4 + length + 12 * frame.masses, rowLength * frame.rows);
     const held = new Uint8Array(buffer, 4 + length + 12 * frame.masses + 4 * rowLength * frame.rows, frame.masses);
+    const end = held.byteOffset + frame.masses;
+    const contact = new Float32Array(buffer, end + (4 - end % 4) % 4, contactLength * frame.contact);
     this.frame = frame;
     if (frame.epoch !== this.epoch) { this.rows = []; this.epoch = frame.epoch; }
     for (let i = 0; i < rows.length; i += rowLength) this.rows.push(rows.slice(i, i + rowLength));
     if (this.rows.length > mostPoints) this.rows = this.rows.filter((_, i) => i % 2 === 1);
     this.rescale(frame);
     this.scene.update(frame, places, held);
+    this.scene.paintContact(frame.plane.normal, contact);
+    this.tellContact(contact);
     this.redraw(frame.number);
+  }
+
+  /// Of what the scene paints: the scale's end, and how much of the area slips.
+  tellContact(contact) {
+    let area = 0, slips = 0;
+    for (let i = 0; i < contact.length; i += contactLength) {
+      area += contact[i + 3] ** 2;
+      slips += contact[i + 6] * contact[i + 3] ** 2;
+    }
+    element('pressure-legend').hidden = area === 0;
+    element('slip-legend').hidden = slips === 0;
+    element('pressure-most').textContent = `up to ${Units.text(this.scene.mostPressure, 'stress')}`;
+    element('slip-share').textContent = area > 0 ? `${(100 * slips / area).toFixed(0)} % of the area` : '';
   }
 
   /// One drawing per displayed image; the acknowledgement follows it, so that a slow page gets less.

@@ -25,13 +25,17 @@ class FingerScene {
   }
 
   build(scene) {
-    for (const old of [this.tip, this.rod, this.plane, this.forceArrow, this.torqueArrow, this.handLine]) {
+    for (const old of [this.tip, this.rod, this.plane, this.forceArrow, this.torqueArrow, this.handLine, this.pressed, this.slipping]) {
       if (old) this.scene.remove(old);
     }
     this.geometry = scene.geometry;
     this.buildTip(scene);
     this.buildRod();
     this.buildPlane(scene.obstacle);
+    this.pressed = FingerScene.spots(FingerScene.disc(), true);
+    this.slipping = FingerScene.spots(FingerScene.disc(5), false);
+    this.scene.add(this.pressed, this.slipping);
+    this.mostPressure = 0;
     this.forceArrow = FingerScene.arrow(1);
     this.torqueArrow = FingerScene.arrow(2);
     this.scene.add(this.forceArrow, this.torqueArrow);
@@ -109,13 +113,23 @@ class FingerScene {
     this.scene.add(this.plane);
   }
 
-  static disc() {
+  /// Full, or a ring of a width in 32nds.
+  static disc(ring) {
     const canvas = document.createElement('canvas');
     canvas.width = canvas.height = 32;
     const pen = canvas.getContext('2d');
-    pen.fillStyle = '#fff';
-    pen.beginPath(); pen.arc(16, 16, 15, 0, 2 * Math.PI); pen.fill();
+    pen.fillStyle = pen.strokeStyle = '#fff';
+    pen.lineWidth = ring || 1;
+    pen.beginPath(); pen.arc(16, 16, ring ? 15 - ring / 2 : 15, 0, 2 * Math.PI);
+    if (ring) pen.stroke(); else pen.fill();
     return new THREE.CanvasTexture(canvas);
+  }
+
+  /// Points as wide as what they stand for, whatever their number.
+  static spots(map, coloured) {
+    const spots = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ map, alphaTest: 0.4, transparent: true, vertexColors: coloured ? THREE.VertexColors : THREE.NoColors }));
+    spots.frustumCulled = false;
+    return spots;
   }
 
   /// A shaft with one head, or two for a torque, along +y, of length 1.
@@ -156,6 +170,8 @@ class FingerScene {
     this.handLine.material.color = this.colour('--hand');
     this.massColour = this.colour('--mass');
     this.heldColour = this.colour('--held');
+    this.lowColour = this.colour('--low');
+    this.slipping.material.color = this.colour('--slip');
     for (const overlay of this.overlays) overlay.lines.material.color = this.colour('--continuum');
     this.paintMasses();
   }
@@ -240,6 +256,35 @@ class FingerScene {
       ends.needsUpdate = true;
       this.handTip = place;
     }
+  }
+
+  /// Seven numbers per point of the contact: place, width, pressure, shear, whether it slips [SI].
+  /// Pressure is told by colour, a slip by a ring.
+  paintContact(normal, contact) {
+    const places = [], colours = [], slips = [];
+    let most = 0, width = 0;
+    for (let i = 0; i < contact.length; i += 7) {
+      most = Math.max(most, contact[i + 4]);
+      width = Math.max(width, contact[i + 3]);
+    }
+    this.mostPressure = Math.max(0.995 * this.mostPressure, most);
+    for (let i = 0; i < contact.length; i += 7) {
+      // Before the obstacle, and rings before discs.
+      const at = (lift) => [0, 1, 2].map((k) => this.scale * (contact[i + k] + lift * width * normal[k]));
+      const c = this.lowColour.clone().lerp(this.heldColour, contact[i + 4] / this.mostPressure);
+      places.push(...at(0.3));
+      colours.push(c.r, c.g, c.b);
+      if (contact[i + 6]) slips.push(...at(0.5));
+    }
+    const put = (spots, name, numbers) => spots.geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(numbers), 3));
+    put(this.pressed, 'position', places);
+    put(this.pressed, 'color', colours);
+    put(this.slipping, 'position', slips);
+    // What three.js draws of a size is by tan(fov/2) too small for a perspective.
+    const size = this.scale * width / Math.tan(this.camera.fov * Math.PI / 360);
+    this.pressed.material.size = 1.1 * size;
+    this.slipping.material.size = 0.8 * size;
+    for (const spots of [this.pressed, this.slipping]) spots.visible = spots.geometry.attributes.position.count > 0;
   }
 
   arrowTip(arrow, values, unit) {

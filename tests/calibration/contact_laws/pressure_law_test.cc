@@ -68,11 +68,30 @@ TEST(GapField, OnACylinderAndAnEdgeIsWiderAlongThem) {
   EXPECT_NEAR(cylinder / (2 * pi * std::sqrt(R * (R * 0.005 / (R + 0.005))) * 0.2e-3), 1.0, 0.03);
 }
 
+/// By distance a dome's law p = k d is Drake's ball.
+TEST(SurfaceDistances, OfADomeAreThoseToItsCentre) {
+  const HydroelasticBall ball{1e5, R};
+  const PressurePolynomial law{ball.modulus / R, 0.0, 0.0};
+  for (const meshes::Obstacle& obstacle :
+       {meshes::Obstacle{}, meshes::Obstacle{meshes::ObstacleShape::sphere, 0.005},
+        meshes::Obstacle{meshes::ObstacleShape::cylinder, 0.008}}) {
+    const Overlaps overlaps = surface_distances({}, obstacle, depth);
+    for (const double d : {0.25e-3, 1e-3, 3e-3})
+      EXPECT_NEAR(force_of(law, overlaps(d)) / ball.force(obstacle, d), 1.0, 6e-3) << d;
+  }
+  const Overlaps overlaps = surface_distances({}, {}, depth);
+  const ForceCurve curve = curve_of([&](double d) { return ball.force({}, d); });
+  EXPECT_NEAR(fitted_line(curve, overlaps).first, law.first, 3e-3 * law.first);
+  const PressureTable table = fitted_table(curve, overlaps);
+  for (const double d : {0.5e-3, 1.3e-3, 2.6e-3})
+    EXPECT_NEAR(table.at(d), law.at(d), 0.02 * law.at(depth)) << d;
+}
+
 TEST(PressureLaws, ForcesOfPowersAreThoseOfTheIntegral) {
   for (const double n : {0.5, 1.0, 2.0}) {
     const PowerLaw law{1e5 * std::pow(1e-3, -n), n};
     for (const double d : {0.25e-3, 1e-3, 3e-3})
-      EXPECT_NEAR(force_of(law, dome_on_plane(), d) / power_force(law.stiffness, n, d), 1.0, 3e-3)
+      EXPECT_NEAR(force_of(law, dome_on_plane()(d)) / power_force(law.stiffness, n, d), 1.0, 3e-3)
           << n << ", " << d;
   }
 }
@@ -87,7 +106,7 @@ TEST(PressureLaws, PowersAndPolynomialsAreFoundAgain) {
   }
   const PressurePolynomial wanted{2e7, 3e9, 1e12};
   const PressurePolynomial found = fitted_polynomial(
-      curve_of([&](double d) { return force_of(wanted, dome_on_plane(), d); }), dome_on_plane());
+      curve_of([&](double d) { return force_of(wanted, dome_on_plane()(d)); }), dome_on_plane());
   EXPECT_NEAR(found.first / wanted.first, 1.0, 1e-8);
   EXPECT_NEAR(found.second / wanted.second, 1.0, 1e-6);
   EXPECT_NEAR(found.third / wanted.third, 1.0, 1e-6);
@@ -101,7 +120,7 @@ TEST(PressureLaws, PolynomialsNeverFallWithinTheCurve) {
   // Concave, then convex.
   const PressurePolynomial wanted{4e7, -1e10, 2e12};
   const PressurePolynomial found = fitted_polynomial(
-      curve_of([&](double d) { return force_of(wanted, dome_on_plane(), d); }), dome_on_plane());
+      curve_of([&](double d) { return force_of(wanted, dome_on_plane()(d)); }), dome_on_plane());
   EXPECT_NEAR(found.second / wanted.second, 1.0, 1e-6);
   // A curve whose pressure would fall.
   const PressurePolynomial held =
@@ -129,10 +148,10 @@ TEST(PressureLaws, ATableMeetsCurvesThatStiffenAndTheirPressure) {
   for (const double n : {0.5, 1.0, 2.0}) {
     const PowerLaw law{2e4 * std::pow(1e-3, -n), n};
     const PressureTable table = fitted_table(
-        curve_of([&](double d) { return force_of(law, dome_on_plane(), d); }), dome_on_plane());
+        curve_of([&](double d) { return force_of(law, dome_on_plane()(d)); }), dome_on_plane());
     for (int i = 2; i <= 36; ++i) {
       const double d = depth * i / 36.0;
-      EXPECT_NEAR(force_of(table, dome_on_plane(), d) / force_of(law, dome_on_plane(), d), 1.0,
+      EXPECT_NEAR(force_of(table, dome_on_plane()(d)) / force_of(law, dome_on_plane()(d)), 1.0,
                   0.02)
           << n << ", " << d;
       if (i > 3) {
@@ -149,7 +168,7 @@ TEST(PressureLaws, ATableIsStraightBetweenItsKnots) {
   ASSERT_EQ(table.pressure.size(), 15U);
   EXPECT_TRUE(std::ranges::is_sorted(table.pressure));
   for (std::size_t i = 0; i < curve.force.size(); ++i)
-    EXPECT_NEAR(force_of(table, dome_on_plane(), curve.indentation[i]) / curve.force[i], 1.0, 5e-3);
+    EXPECT_NEAR(force_of(table, dome_on_plane()(curve.indentation[i])) / curve.force[i], 1.0, 5e-3);
   // Between and beyond the knots straight lines.
   const double middle = 0.5 * (table.penetration[4] + table.penetration[5]);
   EXPECT_NEAR(table.at(middle), 0.5 * (table.pressure[4] + table.pressure[5]),
@@ -163,7 +182,7 @@ TEST(PressureLaws, ATableNeverFalls) {
   const ForceCurve curve = curve_of([](double d) { return std::sqrt(d); });
   const PressureTable table = fitted_table(curve, dome_on_plane());
   EXPECT_TRUE(std::ranges::is_sorted(table.pressure));
-  EXPECT_GT(std::abs(force_of(table, dome_on_plane(), depth) / curve.force.back() - 1.0), 0.1);
+  EXPECT_GT(std::abs(force_of(table, dome_on_plane()(depth)) / curve.force.back() - 1.0), 0.1);
 }
 
 TEST(PressureLaws, CurvesThatDoNotGrowAreRefused) {

@@ -2,6 +2,7 @@
 // solid, against themselves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -71,6 +72,25 @@ double hertz_radius(const ReferenceJob& job, double force) {
   const double nu = job.rubber.poissons_ratio(),
                modulus = job.rubber.youngs_modulus / (1.0 - nu * nu);
   return std::cbrt(0.75 * force * job.geometry.tip_radius / modulus);
+}
+
+/// Without friction, in the mean square over the contact and point by point, where those of corners
+/// and of middles of edges lie on either side; of its own force.
+TEST(Pressure, IsHertzs) {
+  ReferenceJob job = thick_press(ContactMode::frictionless);
+  const PressState state = states_of(job, finest).front();
+  const double a = hertz_radius(job, state.normal_force),
+               peak = 1.5 * state.normal_force / (pi * a * a);
+  double squares = 0.0, area = 0.0, within = 0.0;
+  for (const meshes::ContactPoint& point : state.contact) {
+    const double r = point.place.head<2>().norm() / a,
+                 off = point.normal_traction / peak - std::sqrt(std::max(0.0, 1.0 - r * r));
+    squares += point.area * off * off;
+    area += point.area;
+    if (r < 0.95) within = std::max(within, std::abs(off));
+  }
+  EXPECT_LT(std::sqrt(squares / area), 3e-3);
+  EXPECT_LT(within, 6e-3);
 }
 
 TEST(Twist, StartsAsStiffAsAHalfSpaceUnderADisc) {

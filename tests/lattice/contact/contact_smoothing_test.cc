@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -142,6 +143,36 @@ TEST(ContactField, IsThatOfTheParticles) {
       if (field[i].place.head<2>().norm() > 0.6) continue;
       EXPECT_NEAR(field[i].normal_traction, other[i].normal_traction, 0.01);
     }
+  }
+}
+
+/// Mindlin's tractions: beyond a radius c they are mu p. A tie slides where its own load holds
+/// less.
+TEST(ContactField, SticksWhereMindlinHasIt) {
+  constexpr double mu = 0.4;
+  const auto area_of_slip = [](const std::vector<ContactPoint>& points) {
+    double area = 0.0;
+    for (const ContactPoint& point : points)
+      area += point.state == meshes::ContactState::slip ? point.area : 0.0;
+    return area / std::numbers::pi;
+  };
+  for (const double c : {0.9, 0.7, 0.5}) {
+    auto points = points_of(0.12, mu);
+    share_unevenly(points);
+    for (TiedPoint& tied : points) {
+      ContactPoint& point = tied.point;
+      if (!tied.touches()) continue;
+      point.normal_traction = std::max(point.normal_traction, 0.01);
+      const double r = point.place.head<2>().norm();
+      const double held = mu * (hertz(r, 0.0) - c * hertz(r / c, 0.0));
+      const bool slips = r > c || held > mu * point.normal_traction;
+      point.shear.normalize();
+      point.shear *= slips ? mu * point.normal_traction : held;
+      point.state = slips ? meshes::ContactState::slip : meshes::ContactState::stick;
+    }
+    const double slips = area_of_slip(contact_field(points, hertz_patch(), 1));
+    EXPECT_NEAR(std::sqrt(1.0 - slips), c, 0.05) << "ties: " << area_of_slip(touching(points));
+    EXPECT_GT(area_of_slip(touching(points)), slips);
   }
 }
 

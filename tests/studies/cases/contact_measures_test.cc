@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -75,6 +76,25 @@ TEST(ContactErrors, AreThoseOfFieldsTorquesAndTaxels) {
   EXPECT_TRUE(std::isnan(errors.lateral));
   EXPECT_NEAR(errors.taxels, std::sqrt((30.0 * 30.0 + 30.0 * 30.0) / 6.0) / 500.0, 1e-12);
   EXPECT_NEAR(errors.skin_force, std::abs(530.0 * 1e-5 / 0.01 - 1.0), 1e-12);
+}
+
+TEST(ContactErrors, OfWhatSticksAreThoseOfItsRadius) {
+  const TemporaryFolder folder;
+  lattice::PressSetup setup;
+  setup.protocol.contact = meshes::ContactMode::coulomb;
+  const auto stuck_to = [&](double share) {  // of the radius
+    auto field = hertz_field(setup, 0.01, 1.0);
+    double a = 0.0;
+    for (const ContactPoint& point : field) a = std::max(a, point.place.head<2>().norm());
+    for (ContactPoint& point : field)
+      if (point.place.head<2>().norm() > share * a) point.state = meshes::ContactState::slip;
+    return field;
+  };
+  write_run(folder / "a", stuck_to(0.5), {}, 0.0);
+  write_run(folder / "b", stuck_to(0.6), {}, 0.0);
+  EXPECT_NEAR(contact_errors(setup, folder / "a", folder / "b").stick_radius, 0.1, 0.02);
+  setup.protocol.contact = meshes::ContactMode::stick;
+  EXPECT_TRUE(std::isnan(contact_errors(setup, folder / "a", folder / "b").stick_radius));
 }
 
 TEST(ContactErrors, OfWhatIsMissingAreUnknown) {

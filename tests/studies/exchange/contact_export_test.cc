@@ -55,8 +55,9 @@ const json& model_of(const json& obstacle, const std::string& name) {
 
 TEST(ContactExport, EveryFormatIsWrittenWithTheForceErrorToExpect) {
   const Workplace folder;
-  EXPECT_TRUE(says(folder.run(to("all"), slips).out,
-                   {"pressure-law: table", "mujoco: flex", "drake: hydroelastic ball"}));
+  EXPECT_TRUE(
+      says(folder.run(to("all"), slips).out,
+           {"pressure-law: table", "mujoco: flex", "drake: hydroelastic ball", "newton: table"}));
   const json transfer = folder.json("run/transfer.json");
   ASSERT_EQ(transfer["obstacles"].size(), 3U);
   EXPECT_TRUE(transfer["lost"].empty());
@@ -83,13 +84,31 @@ TEST(ContactExport, EveryFormatIsWrittenWithTheForceErrorToExpect) {
   EXPECT_GT(model_of(ball, "mujoco: rigid geom")["error"][0].get<double>(), 0.3);
   EXPECT_TRUE(model_of(ball, "mujoco: flex")["error"][0].is_null());
 
+  // On a dome newton's straight line is Drake's ball.
+  EXPECT_LT(std::abs(model_of(plane, "newton: table")["error"][2].get<double>()), 0.01);
+  for (const json& obstacle : transfer["obstacles"])
+    for (std::size_t i = 0; i < 5; ++i)
+      EXPECT_NEAR(model_of(obstacle, "newton: kh")["error"][i].get<double>(),
+                  model_of(obstacle, "drake: hydroelastic ball")["error"][i].get<double>(), 0.01);
+
   const json law = folder.json("run/pressure-law/pressure_law.json");
   EXPECT_GT(law["exponent"].get<double>(), 0.5);  // Hertz' on a half space
   EXPECT_NEAR(law["hydroelastic_modulus"].get<double>() / law["line"].get<double>(), 0.01, 1e-9);
   EXPECT_TRUE(
       folder.text("run/pressure-law/pressure_table.csv").starts_with("penetration [m],pressure"));
-  for (const std::string format : {"", "pressure-law/", "mujoco/", "drake/", "sofa/", "vtk/"})
+  for (const std::string format :
+       {"", "pressure-law/", "newton/", "mujoco/", "drake/", "sofa/", "vtk/"})
     EXPECT_TRUE(says(folder.text("run/" + format + "README.md"), "Force error to expect"));
+}
+
+/// newton is not at hand: its file's law as Python without Warp.
+TEST(ContactExport, NewtonsLawIsTheTable) {
+  const Workplace folder;
+  folder.run(to("newton"), slips);
+  const std::string script = "python3 -B '" FINGERTIP_SOURCES
+                             "/tests/studies/exchange/newton_law.py' '" +
+                             (folder / "run").string() + "'";
+  EXPECT_EQ(std::system(script.c_str()), 0);
 }
 
 TEST(ContactExport, SoftBodiesAreTheSameForEveryProgram) {

@@ -30,6 +30,10 @@ LiveFrame small_frame() {
   frame.picture.row = {0.5, 1e-3, 0.25, 0.01, 0.011, 2e-4};
   frame.picture.finger.boundary = {{0.1, 0.2, 0.3}, {-0.1, -0.2, -0.3}};
   frame.picture.finger.held = {0, 1};
+  meshes::ContactPoint point{.place = {0.4, 0.5, 0.6}, .area = 4e-6, .normal_traction = 700.0};
+  point.shear = {3.0, -4.0, 0.0};
+  point.state = meshes::ContactState::slip;
+  frame.picture.finger.contact = {point};
   return frame;
 }
 
@@ -92,13 +96,17 @@ TEST(Protocol, FramesAreLaidOutAsTheReadmeSays) {
   EXPECT_EQ(json.at("rows"), 1);
   EXPECT_EQ(json.at("normal_force"), 0.25);
   EXPECT_FALSE(json.contains("hand"));
-  ASSERT_EQ(bytes.size(), 4 + length + 2 * 12 + 24 + 2);
+  EXPECT_EQ(json.at("contact"), 1);
+  ASSERT_EQ(bytes.size(), 4 + length + 2 * 12 + 24 + 4 + 28);
   std::vector<float> numbers(12);
   std::memcpy(numbers.data(), bytes.data() + 4 + length, 48);
   EXPECT_EQ(numbers[2], 0.3f);
   EXPECT_EQ(numbers[6], 0.5f);
   EXPECT_EQ(numbers[8], 0.25f);
-  EXPECT_EQ(bytes.back(), 1);
+  EXPECT_EQ(bytes[4 + length + 49], 1);
+  std::vector<float> contact(7);
+  std::memcpy(contact.data(), bytes.data() + bytes.size() - 28, 28);
+  EXPECT_EQ(contact, (std::vector<float>{0.4f, 0.5f, 0.6f, 2e-3f, 700.0f, 5.0f, 1.0f}));
 }
 
 TEST(Protocol, TellsTheLimitsOfAContactForceWhereOneIsHeld) {

@@ -123,6 +123,38 @@ TEST(LiveRig, PressesASolidLikeThePressVerb) {
   expect_pressed_alike(setup);
 }
 
+/// Tilted, on a ball, at small and large strain: what is painted carries the contact's force, on
+/// the obstacle, beside the masses that it holds.
+TEST(LiveRig, PaintsTheContactWhereItIs) {
+  for (const lattice::Kinematics kinematics :
+       {lattice::Kinematics::small, lattice::Kinematics::finite}) {
+    lattice::PressSetup setup = coarse_press();
+    setup.lattice.kinematics = kinematics;
+    if (kinematics == lattice::Kinematics::finite) {
+      setup.protocol.tilt = 0.1;
+      setup.protocol.obstacle = {meshes::ObstacleShape::sphere, 0.015};
+    }
+    LiveRig rig(setup);
+    while (rig.row().indentation < 0.7e-3) rig.advance();
+    const LivePicture picture = rig.picture();
+    ASSERT_FALSE(picture.finger.contact.empty());
+    Vector3 force = Vector3::Zero();
+    double nearest = 1.0;
+    for (const meshes::ContactPoint& point : picture.finger.contact) {
+      force += point.force();
+      if (setup.protocol.obstacle.is_plane()) {
+        EXPECT_NEAR(picture.finger.plane.gap(point.place), 0.0, 0.15e-3);
+      }
+      for (std::size_t i = 0; i < picture.finger.held.size(); ++i)
+        if (picture.finger.held[i] != 0)
+          nearest = std::min(nearest, (picture.finger.boundary[i] - point.place).norm());
+    }
+    EXPECT_LT(nearest, 0.5 * setup.lattice.spacing);
+    const Vector3 felt = picture.measured.contact->on_tip.force;
+    EXPECT_LT((force - felt).norm(), 0.01 * felt.norm());  // a step earlier
+  }
+}
+
 TEST(LiveRig, ResetRepeatsTheSameBits) {
   LiveRig rig(coarse_press());
   const auto run = [&] {

@@ -130,10 +130,20 @@ TEST(ForceError, IsEstimatedElsewhereAndSaysWhy) {
 TEST(ForceError, OfAnEstimateIsAPartOfTheForceWhereThereIsContact) {
   PressSample touches = sample(1e-3, 2.0);
   touches.contact_radius = 3e-3;
+  touches.max_pressure = 500.0;
   const fingertip::lattice::PressSetup setup = setup_of({"press.mode=static"});
   const fingertip::lattice::ForceEstimator estimator(setup);
   const auto samples =
       with_estimated_error(PressResponse({sample(0.5e-3, 1.0), touches}), estimator).samples();
   EXPECT_TRUE(std::isnan(samples[0].force_error)) << "no radius is known";
-  EXPECT_DOUBLE_EQ(samples[1].force_error, 2.0 * estimator.of(touches)->sum());
+  const fingertip::lattice::ForceEstimate estimate = *estimator.of(touches);
+  EXPECT_DOUBLE_EQ(samples[1].force_error, 2.0 * estimate.sum());
+  EXPECT_TRUE(std::isnan(samples[0].pressure_error));
+  EXPECT_DOUBLE_EQ(samples[1].pressure_error, 500.0 * (estimate.sum() + estimate.profile));
+  // Beside a continuum what the force is off is known, and the rest estimated.
+  touches.force_error = 0.01;
+  touches.indentation = 1e-3;
+  EXPECT_DOUBLE_EQ(
+      with_pressure_error(PressResponse({touches}), estimator).samples()[0].pressure_error,
+      500.0 * (0.005 + estimate.profile));
 }

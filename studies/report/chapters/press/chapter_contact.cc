@@ -34,7 +34,29 @@ bool is_sheared(const ContactMap& map) {
          (map.shear_x.abs() + map.shear_y.abs()).maxCoeff() > 1e-6 * map.pressure.maxCoeff();
 }
 
-Figure section_figure(const std::vector<RunContact>& runs, const std::vector<ContactMap>& maps) {
+/// What a run tells of its pressures' error at a depth [Pa]; unknown where it tells none.
+double told_error(const RunContact& run, double depth) {
+  for (const meshes::PressSample& sample : run.response->pressing())
+    if (std::abs(sample.indentation - depth) <= 1e-9) return sample.pressure_error;
+  return meshes::unknown;
+}
+
+/// The area between a pressure's limits; nothing where no error is told.
+Series error_band(const Series& pressure, double error) {
+  Series band{"", pressure.label + " error", pressure.style};
+  band.filled = true;
+  const double bar = shown_units().stress(error);
+  const auto add = [&](std::size_t i, double off) {
+    const double value = pressure.y[i] + off;
+    if (!std::isnan(value)) band.add(pressure.x[i], std::max(value, 0.0));
+  };
+  for (std::size_t i = 0; i < pressure.x.size(); ++i) add(i, bar);
+  for (std::size_t i = pressure.x.size(); i-- > 0;) add(i, -bar);
+  return band;
+}
+
+Figure section_figure(const std::vector<RunContact>& runs, const ContactsAtDepth& contacts) {
+  const std::vector<ContactMap>& maps = contacts.maps;
   const ShownUnit &length = shown_units().length, &stress = shown_units().stress;
   const auto panel = [&](const char* what, Eigen::ArrayXXd ContactMap::*of) {
     Panel made{.x_label = length.label("along t1"),
@@ -44,7 +66,18 @@ Figure section_figure(const std::vector<RunContact>& runs, const std::vector<Con
       if (maps[i].pressure.size() > 0) made.series.push_back(section_of(runs[i], maps[i], of));
     return made;
   };
-  Figure figure{"contact_section", 760, 380, 1, {panel("pressure", &ContactMap::pressure)}};
+  const auto with_bands = [&](Panel made) {
+    std::vector<Series> bands;
+    for (std::size_t i = 0, line = 0; i < runs.size(); ++i) {
+      if (maps[i].pressure.size() == 0) continue;
+      Series band = error_band(made.series[line++], told_error(runs[i], contacts.depth));
+      if (!band.x.empty()) bands.push_back(std::move(band));
+    }
+    made.series.insert(made.series.begin(), bands.begin(), bands.end());
+    return made;
+  };
+  Figure figure{
+      "contact_section", 760, 380, 1, {with_bands(panel("pressure", &ContactMap::pressure))}};
   figure.panels.front().y_range = Range{0.0};
   if (!std::ranges::any_of(maps, is_sheared)) return figure;
   figure.panels.push_back(panel("shear along t1", &ContactMap::shear_x));
@@ -159,10 +192,11 @@ Figure limit_figure(const std::vector<RunContact>& runs, const ContactsAtDepth& 
   return {"limit_surface", 760, 380, 1, {std::move(panel)}};
 }
 
-/// A pressure's difference, and the others beneath it.
-Cell difference_cell(const ContactDifference& d) {
+/// A pressure's difference, the error that the run tells of it, and the others beneath it.
+Cell difference_cell(const ContactDifference& d, double told) {
   if (std::isnan(d.pressure_l2)) return {};
   std::string note = fmt::format("largest {}, radius {}", percent(d.peak), percent(d.radius));
+  if (!std::isnan(told)) note.insert(0, fmt::format("told {}, ", percent_magnitude(told)));
   if (d.shear_l2 > 0.0) note.insert(0, fmt::format("shear {}, ", percent_magnitude(d.shear_l2)));
   return {percent_magnitude(d.pressure_l2), note};
 }
@@ -175,7 +209,8 @@ Table contact_table(const ContactComparison& contacts) {
     auto& row = table.rows.emplace_back();
     row.push_back(fmt::format("{:.4g}", shown_units().length(here.depth)));
     for (std::size_t i = 1; i < contacts.runs.size(); ++i)
-      row.push_back(difference_cell(here.difference(i)));
+      row.push_back(difference_cell(here.difference(i), told_error(contacts.runs[i], here.depth) /
+                                                            here.maps.front().pressure.maxCoeff()));
   }
   return table;
 }
@@ -204,7 +239,7 @@ Chapter contact_chapter(const ContactComparison& contacts, const std::string& na
   chapter["compared"] = runs.size() > 1;
   chapter["first"] = runs.front().label;
   chapter["depth"] = length(deepest.depth);
-  chapter.figures = {section_figure(runs, deepest.maps), map_figure(runs, deepest.maps)};
+  chapter.figures = {section_figure(runs, deepest), map_figure(runs, deepest.maps)};
   const auto& first = deepest.fields.front();
   const meshes::LimitSurface held = limit_surface(first);
   chapter["moment"] = shown_units().torque.text(held.greatest_moment);
