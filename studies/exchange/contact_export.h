@@ -13,8 +13,8 @@ namespace fingertip::studies::inline exchange {
 /// makes good: as ContactCurves, and an obstacle that the format cannot have.
 ContactCurves contact_curves(const std::string& format, const LoadedConfig& loaded);
 
-/// Of "pressure-law", "mujoco", "drake", "sofa", "vtk", or "all" that can carry the press: fitted
-/// to the first curve, judged by all. Throws InvalidInput where that curve does not grow,
+/// Of "pressure-law", "newton", "mujoco", "drake", "sofa", "vtk", or "all" that can carry the press:
+/// fitted to the first curve, judged by all. Throws InvalidInput where that curve does not grow,
 /// ConfigError for tetrahedra that bear no press.
 ContactExport contact_export(const std::string& format, const ContactSource& source);
 

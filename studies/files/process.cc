@@ -8,12 +8,16 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <mutex>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
 
 #include "meshes/base/errors.h"
+#include "meshes/base/files.h"
+#include "studies/files/places.h"
 
 namespace fingertip::studies::inline files {
 
@@ -47,7 +51,7 @@ int wait_or_stop(pid_t child, const std::function<bool()>& stop) {
   bool stopped = false;
   while (::waitpid(child, &status, WNOHANG) == 0) {
     if (!stopped && stop()) {
-      ::kill(child, SIGTERM);
+      ::kill(-child, SIGTERM);  // and what it has started
       stopped = true;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -55,6 +59,20 @@ int wait_or_stop(pid_t child, const std::function<bool()>& stop) {
   if (stopped) throw meshes::Interrupted("stopped by the user");
   return exit_code(status);
 }
+
+/// Of this process, removed afterwards.
+struct ScratchFile {
+  fs::path path =
+      fs::temp_directory_path() / ("fingertip-words-" + std::to_string(::getpid()) + ".txt");
+
+  ScratchFile() = default;
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  ~ScratchFile() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+};
 
 }  // namespace
 
@@ -125,6 +143,37 @@ int run_process(const Command& command, const fs::path& output, const std::funct
   const pid_t child = start_process(command, file, file);
   ::close(file);
   return stop ? wait_or_stop(child, stop) : wait_for(child);
+}
+
+fs::path built_reference_program(const std::function<bool()>& stop) {
+  const fs::path program = reference_program();
+  if (fs::exists(program)) return program;
+  static std::mutex one_by_one;
+  static std::string failure;  // it is tried once
+  const std::lock_guard<std::mutex> lock(one_by_one);
+  if (fs::exists(program)) return program;
+  const auto refuse = [&](const std::string& remedy) {
+    throw meshes::InvalidInput(
+        {"fingertip-fem", program.string(), "the continuum's program is not there", remedy});
+  };
+  const char* const launcher = std::getenv("FINGERTIP_LAUNCHER");
+  if (launcher == nullptr || *launcher == '\0')
+    refuse("build with FINGERTIP_FEM=ON (./fingertip does, when it is asked for)");
+  if (failure.empty()) {
+    std::fputs(
+        "fingertip: this needs the continuum: installing deal.II and gmsh and building it, once, "
+        "some 10 minutes\n",
+        stderr);
+    const ScratchFile words;
+    const int code = run_process({{launcher, "--continuum"}, {}}, words.path, stop);
+    if (code == 0 && fs::exists(program)) return program;
+    std::string said = meshes::read_text(words.path);
+    said.erase(said.find_last_not_of('\n') + 1);
+    failure = "`./fingertip reference` builds it; here that failed: " +
+              said.substr(said.find_last_of('\n') + 1);
+  }
+  refuse(failure);
+  return {};
 }
 
 }  // namespace fingertip::studies::inline files

@@ -38,4 +38,9 @@ int wait_for(pid_t child);
 int run_process(const Command& command, const std::filesystem::path& output,
                 const std::function<bool()>& stop = {});
 
+/// fingertip-fem (reference_program). Where it is not there and `./fingertip` started this program,
+/// it is built first, with a word on stderr and the build's own in `build.log`; `stop` as in
+/// run_process. Throws InvalidInput where it cannot be had.
+std::filesystem::path built_reference_program(const std::function<bool()>& stop = {});
+
 }  // namespace fingertip::studies::inline files

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "meshes/base/blas.h"
+#include "studies/files/places.h"
 
 namespace fingertip::studies::inline jobs {
 
@@ -62,10 +63,9 @@ nlohmann::ordered_json package_versions() {
        fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
       {"OpenSSL", OpenSSL_version(OPENSSL_VERSION_STRING)},
       {"compiler", fmt::format("{} {}", FINGERTIP_COMPILER, __VERSION__)}};
-#ifdef FINGERTIP_DEALII
-  versions["deal.II"] = FINGERTIP_DEALII;
-  versions["gmsh"] = FINGERTIP_GMSH;
-#endif
+  // Of the other program, where it is built.
+  if (std::ifstream continuum(passed_on("continuum.json")); continuum)
+    versions.update(nlohmann::ordered_json::parse(continuum));
   return versions;
 }
 

@@ -12,6 +12,7 @@
 #include "studies/files/process.h"
 #include "studies/jobs/fem_launch.h"
 #include "studies/jobs/fem_process.h"
+#include "studies/jobs/interrupt.h"
 #include "studies/presses/press_record.h"
 
 namespace fingertip::studies::inline presses {
@@ -76,7 +77,7 @@ Job reference_job(const fem_reference::ReferenceJob& reference) {
       own.log("a meridian is solved on one process: --ranks is not used");
     // Threads would wait for each other longer than its small fronts take.
     if (reference.axisymmetric()) own.ranks = own.threads = 1;
-    run_fem_process(reference_program(), folder, own);
+    run_fem_process(built_reference_program(interrupted), folder, own);
     fs::remove_all(folder / "checkpoint");  // of use to an unfinished job alone
   };
   return job;

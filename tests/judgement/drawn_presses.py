@@ -349,9 +349,9 @@ def measure_fields(bench, number, drawn):
     for sample in found:
         i = next(i for i, row in enumerate(told) if float(row["indentation [m]"]) == sample["depth"])
         table = rings(true.get(numbers[place_of(told[i])], []))
-        bar = float(told[i].get("pressure_error [Pa]") or "nan")
-        if len(table) < 8 or i + 1 not in own or math.isnan(bar):
+        if len(table) < 8 or i + 1 not in own or not told[i]["max_pressure [Pa]"]:
             continue
+        bar = float(told[i].get("pressure_error [Pa]") or 0.0)
         most, off, area = max(p for _, p in table), 0.0, 0.0
         for point in own[i + 1]:
             radius = math.hypot(float(point["x [m]"]), float(point["y [m]"]))

@@ -1,13 +1,10 @@
 #include "lattice/dynamics/integrators/runge_kutta.h"
 
-#include <arkode/arkode_erkstep.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
-
 #include <algorithm>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
-#include <new>
 #include <sstream>
+#include <vector>
 
 #include "lattice/dynamics/integrators/motion_vector.h"
 #include "lattice/dynamics/spectrum.h"
@@ -24,16 +21,20 @@ constexpr double largest_volume_change = 0.1;
 
 constexpr int max_retries = 12;  // of a step that runs into inverted cells, each a quarter as long
 
+/// Of the length at which the estimated error would be the tolerance, and how much a step may be
+/// shorter and longer than the one before (Hairer, Norsett & Wanner, Solving Ordinary Differential
+/// Equations I, II.4).
+constexpr double step_margin = 0.8, least_growth = 0.2, most_growth = 10.0;
+
+using Vector = std::vector<double>;
+
 }  // namespace
 
-/// Owns what ARKODE allocates and tells it the motion's rates.
+/// All unknowns, and a step of theirs.
 class RungeKutta::Solver {
  public:
   Solver(Finger& finger, const StepController& steps, double tolerance,
          std::optional<double> largest, double& next);
-  ~Solver();
-  Solver(const Solver&) = delete;
-  Solver& operator=(const Solver&) = delete;
 
   void begin(double duration);
   /// Returns the length of the step; ended_span() tells whether the end of the span cut it.
@@ -42,27 +43,27 @@ class RungeKutta::Solver {
   long rejected() const { return rejected_; }
 
  private:
-  static int rates(double time, N_Vector y, N_Vector y_dot, void* self);
-  int find_rates(double time, const double* y, double* y_dot);
-  void restart(double time, double step);
+  void find_rates(const Vector& y, Vector& y_dot, double time);
+  double error() const;
   void take_over(const Drive& drive, double duration);
-  void plan(double taken, bool failed);
   double largest_step() const;
 
   double& next_;  ///< the step to try [s]
   Finger* finger_;
   MotionVector layout_;
-  SUNContext context_ = nullptr;
-  N_Vector y_ = nullptr;
-  void* memory_ = nullptr;
+  boost::numeric::odeint::runge_kutta_dopri5<Vector> pair_;
+  Vector y_, rates_, new_y_, new_rates_, off_, scale_;
+  bool knows_rates_ = false;  ///< those of y_: the last stage of a step is the first of the next
+  bool crushed_ = false;      ///< a stage has turned a cell inside out
   double largest_;
   double span_ = 0.0, local_ = 0.0, start_ = 0.0;  // of the span, and where it began [s]
+  double length_ = 0.0;                            // of the step to try within it [s]
   bool ended_span_ = false;
   long rejected_ = 0;
   const Drive* drive_ = nullptr;
   Plane plane_;  // at the start of the step
   double plane_time_ = 0.0;
-  MotionVector::Impulses impulses_;  // since the last restart
+  MotionVector::Impulses impulses_;  // since the span began
   State state_;
   RodState rod_;
   VectorField force_;
@@ -77,56 +78,38 @@ RungeKutta::Solver::Solver(Finger& finger, const StepController& steps, double t
       state_(finger.model()),
       rod_(finger.rod()),
       force_(finger.model().points()) {
-  const auto require = [](bool done) {
-    if (!done) throw std::bad_alloc();
-  };
-  require(SUNContext_Create(nullptr, &context_) == 0);
-  y_ = N_VNew_Serial(sunindextype(layout_.size()), context_);
-  require(y_ != nullptr);
-  N_VConst(0.0, y_);
-  memory_ = ERKStepCreate(&Solver::rates, 0.0, y_, context_);
-  require(memory_ != nullptr);
+  for (Vector* vector : {&y_, &rates_, &new_y_, &new_rates_, &off_, &scale_})
+    vector->resize(layout_.size());
   const double frequency = std::sqrt(spectral_estimate(finger.model()).stiffness);
-  N_Vector scale = N_VClone(y_);
-  require(scale != nullptr);
-  layout_.write_scales(finger.rod(), frequency, N_VGetArrayPointer(scale));
-  N_VScale(tolerance, scale, scale);
-  const bool set = ERKStepSVtolerances(memory_, 0.0, scale) == ARK_SUCCESS &&
-                   ERKStepSetTableNum(memory_, ARKODE_DORMAND_PRINCE_7_4_5) == ARK_SUCCESS &&
-                   ERKStepSetUserData(memory_, this) == ARK_SUCCESS &&
-                   ERKStepSetErrFile(memory_, nullptr) == ARK_SUCCESS;
-  N_VDestroy(scale);
-  require(set);
+  layout_.write_scales(finger.rod(), frequency, scale_.data());
+  for (double& scale : scale_) scale *= tolerance;
 }
 
-RungeKutta::Solver::~Solver() {
-  ERKStepFree(&memory_);
-  N_VDestroy(y_);
-  SUNContext_Free(&context_);
-}
-
-int RungeKutta::Solver::rates(double time, N_Vector y, N_Vector y_dot, void* self) {
-  return static_cast<Solver*>(self)->find_rates(time, N_VGetArrayPointer(y),
-                                                N_VGetArrayPointer(y_dot));
-}
-
-int RungeKutta::Solver::find_rates(double time, const double* y, double* y_dot) {
-  layout_.read(y, state_, rod_);
+void RungeKutta::Solver::find_rates(const Vector& y, Vector& y_dot, double time) {
+  if (crushed_) return;  // the step is lost
+  layout_.read(y.data(), state_, rod_);
   if (const Motion* motion = std::get_if<Motion>(drive_)) {
     const RodMotion at = (*motion)(start_ + time);
     rod_.prescribe(at.travel, at.velocity);
   }
   const Finger::Trial trial = finger_->attempt(state_, rod_, plane_.after(time - plane_time_),
                                                finger_->time() + (time - plane_time_), force_);
-  if (!(trial.extremes.smallest_jacobian > 0.0)) return 1;
-  layout_.write_rates(state_, force_, trial.surfaces, y_dot);
+  crushed_ = !(trial.extremes.smallest_jacobian > 0.0);
+  if (crushed_) return;
+  layout_.write_rates(state_, force_, trial.surfaces, y_dot.data());
   if (const Wrench* applied = std::get_if<Wrench>(drive_)) {
     const Wrench& bond = trial.surfaces.bond;
     const Vector3 weight = rod_.body().mass * finger_->gravity();
     const Wrench at_endpoint{applied->force + bond.force, applied->torque + bond.torque};
-    layout_.write_rod_rates(rod_, at_endpoint, weight, y_dot);
+    layout_.write_rod_rates(rod_, at_endpoint, weight, y_dot.data());
   }
-  return 0;
+}
+
+/// Root mean square over the scales.
+double RungeKutta::Solver::error() const {
+  double squares = 0.0;
+  for (std::size_t i = 0; i < off_.size(); ++i) squares += std::pow(off_[i] / scale_[i], 2);
+  return std::sqrt(squares / double(off_.size()));
 }
 
 double RungeKutta::Solver::largest_step() const {
@@ -136,27 +119,14 @@ double RungeKutta::Solver::largest_step() const {
   return most;
 }
 
-void RungeKutta::Solver::restart(double time, double step) {
-  layout_.write(finger_->state(), finger_->rod(), N_VGetArrayPointer(y_));
-  impulses_ = {};
-  ERKStepReInit(memory_, &Solver::rates, time, y_);
-  ERKStepSetInitStep(memory_, step);
-  ERKStepSetStopTime(memory_, span_);
-}
-
 void RungeKutta::Solver::begin(double duration) {
   span_ = duration;
   local_ = 0.0;
   start_ = finger_->time();
-  const double pieces = std::ceil(duration / std::min(next_, duration) * (1.0 - 1e-12));
-  restart(0.0, duration / pieces);
-}
-
-/// ARKODE shortens the step before a stop: what it would have been is kept.
-void RungeKutta::Solver::plan(double taken, bool failed) {
-  double proposed = taken;
-  ERKStepGetCurrentStep(memory_, &proposed);
-  next_ = ended_span_ ? (failed ? taken : std::max(next_, taken)) : proposed;
+  length_ = duration / std::ceil(duration / std::min(next_, duration) * (1.0 - 1e-12));
+  layout_.write(finger_->state(), finger_->rod(), y_.data());
+  impulses_ = {};
+  knows_rates_ = false;
 }
 
 double RungeKutta::Solver::step(const Drive& drive) {
@@ -167,35 +137,45 @@ double RungeKutta::Solver::step(const Drive& drive) {
   }
   plane_ = finger_->plane();
   plane_time_ = local_;
-  ERKStepSetMaxStep(memory_, largest_step());
-  double planned = next_;
-  for (int retries = 0;; ++retries) {
-    long before = 0, after = 0;
-    ERKStepGetNumErrTestFails(memory_, &before);
-    double reached = local_;
-    const int flag = ERKStepEvolve(memory_, span_, y_, &reached, ARK_ONE_STEP);
-    if (flag >= 0) {
-      ERKStepGetNumErrTestFails(memory_, &after);
-      rejected_ += after - before;
-      const double taken = reached - local_;
-      ended_span_ = flag == ARK_TSTOP_RETURN || reached >= span_;
-      plan(taken, after > before || retries > 0);
-      local_ = reached;
-      take_over(drive, taken);
-      return taken;
+  const auto rates = [this](const Vector& y, Vector& y_dot, double time) {
+    find_rates(y, y_dot, time);
+  };
+  crushed_ = false;
+  if (!knows_rates_) find_rates(y_, rates_, local_);
+  knows_rates_ = true;
+  const double most = largest_step();
+  int retries = 0;
+  for (bool failed = false;; failed = true) {
+    const double left = span_ - local_;
+    length_ = std::min(length_, most);
+    ended_span_ = length_ >= left * (1.0 - 1e-12);
+    const double taken = ended_span_ ? left : length_;
+    crushed_ = false;
+    pair_.do_step(rates, y_, rates_, local_, new_y_, new_rates_, taken, off_);
+    const double off = error();
+    if (crushed_ || !std::isfinite(off)) {
+      if (++retries > max_retries) throw CrushedCells("cells are pressed flat");
+      length_ = 0.25 * taken;
+    } else {
+      length_ = taken * std::clamp(step_margin * std::pow(off, -0.2), least_growth,
+                                   failed ? 1.0 : most_growth);
+      if (off <= 1.0) {
+        next_ = ended_span_ ? (failed ? taken : std::max(next_, taken)) : length_;
+        local_ = ended_span_ ? span_ : local_ + taken;
+        y_.swap(new_y_);
+        rates_.swap(new_rates_);
+        take_over(drive, taken);
+        return taken;
+      }
     }
-    if (retries == max_retries) throw CrushedCells("cells are pressed flat");
     ++rejected_;
-    planned *= 0.25;
-    restart(local_, planned);
   }
 }
 
 void RungeKutta::Solver::take_over(const Drive& drive, double duration) {
   const Vector3 momentum_before = finger_->rod().momentum();
-  const double* y = N_VGetArrayPointer(y_);
-  layout_.read(y, finger_->state(), finger_->rod());
-  const MotionVector::Impulses total = layout_.impulses(y);
+  layout_.read(y_.data(), finger_->state(), finger_->rod());
+  const MotionVector::Impulses total = layout_.impulses(y_.data());
   const MotionVector::Impulses impulses = total - impulses_;
   impulses_ = total;
   Vector3 on_rod = Vector3::Zero();

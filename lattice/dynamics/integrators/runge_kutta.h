@@ -1,4 +1,4 @@
-/// Adaptive explicit Runge-Kutta steps by SUNDIALS ARKODE.
+/// Adaptive explicit Runge-Kutta steps by Boost.odeint.
 #pragma once
 
 #include "lattice/dynamics/integrators/stepper.h"
@@ -6,7 +6,7 @@
 namespace fingertip::lattice::inline dynamics::inline integrators {
 
 /// The pair of Dormand and Prince, order 5 with an estimate of order 4 (J. Comput. Appl. Math. 6,
-/// 1980), by ERKStep of ARKODE (Reynolds et al., ACM TOMS 49, 2023), for
+/// 1980), by Boost.odeint (Ahnert & Mulansky, AIP Conf. Proc. 1389, 2011), for
 ///   u' = v,  m v' = f(u, v),  and of the rod  c' = p/M,  q' = ½ (0, w) q,  p' = F,  L' = T,
 /// w = I(q)⁻¹ L, unless it is prescribed; q is kept at unit length where it is used. The ties act
 /// with their plain stiffness, without the inertia and the look ahead that Euler steps need

@@ -41,7 +41,7 @@ struct CommandLine {
   std::string isa;                   ///< of bench: the widest to measure; empty: all there is
   std::string shard;                 ///< sweep --shard, "i/N"; empty: all
   bool collect = false;              ///< sweep --collect
-  bool list = false;                 ///< sweep --list
+  bool list = false;                 ///< sweep --list, init --list
   bool schema = false;               ///< explain --schema
   bool markdown = false;             ///< explain --markdown
   bool man = false;                  ///< explain --man

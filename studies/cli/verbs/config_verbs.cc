@@ -106,26 +106,4 @@ int run_explain(const CommandLine& line) {
   return 0;
 }
 
-int run_init(const CommandLine& line) {
-  std::filesystem::path file = line.out;
-  if (!line.arguments.empty()) file = line.arguments.front();
-  if (file.empty()) {
-    fmt::print("{}", config_template());
-    return 0;
-  }
-  const auto refuse = [&](const std::string& rule, const std::string& remedy) {
-    throw ConfigError({"", "", rule, remedy, "init " + file.string()});
-  };
-  if (std::filesystem::exists(file) && !line.force) {
-    refuse("the file exists already", "choose another name, or say --force to replace it");
-  }
-  try {
-    meshes::write_atomically(file, [](std::ostream& out) { out << config_template(); });
-  } catch (const std::runtime_error& error) {
-    refuse(error.what(), "choose a folder in which you may write");
-  }
-  if (!line.quiet) fmt::print("written: {}\n", file.string());
-  return 0;
-}
-
 }  // namespace fingertip::studies::inline cli::inline verbs

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+
 #include <unistd.h>
+#include <cstdlib>
 
 #include "studies/cases/case_file.h"
 #include "studies/cli/verbs/verbs.h"
@@ -31,9 +33,11 @@ int run_doctor(const CommandLine&) {
     fmt::print("{:<16}{}\n", name, value);
   };
   row("fingertip", program_version() + " in " + executable_folder().string());
-  const bool continuum = ::access(reference_program().c_str(), X_OK) == 0;
-  row("fingertip-fem",
-      continuum ? reference_program().string() : "MISSING: reference and validate cannot run");
+  const bool built = ::access(reference_program().c_str(), X_OK) == 0,
+             continuum = built || std::getenv("FINGERTIP_LAUNCHER") != nullptr;
+  row("fingertip-fem", built       ? reference_program().string()
+                       : continuum ? "not built: ./fingertip does it when it is first asked for"
+                                   : "MISSING: reference and validate cannot run");
   row("mpirun", program_on_path("mpirun").empty()
                     ? "MISSING: reference --ranks N cannot run (package openmpi-bin)"
                     : "found");

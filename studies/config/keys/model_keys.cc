@@ -113,7 +113,7 @@ Key integrator_key() {
       "run", "integrator",
       {{"symplectic-euler", "velocities first, then positions"},
        {"explicit-euler", "as printed in the paper's Fig. 4; published lattice"},
-       {"runge-kutta", "order 5(4) by SUNDIALS ARKODE, see run.tolerance"},
+       {"runge-kutta", "order 5(4) by Boost.odeint, see run.tolerance"},
        {"mass-scaled",
         "symplectic Euler at long steps, with inertia against deformation; for slow presses: fast "
         "ones take plain masses unless run.time_step is given, and then tell the error"},

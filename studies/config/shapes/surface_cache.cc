@@ -49,15 +49,20 @@ void write_cad(const fs::path& cad, const std::string& up, const fs::path& stl,
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {
     throw meshes::InvalidInput({"geometry.file", cad.filename().string(), rule, remedy});
   };
-  if (!fs::exists(reference_program()))
-    refuse("CAD files need the program fingertip-fem beside fingertip",
-           "build with FINGERTIP_FEM=ON (./fingertip does), or export an STL");
+  const fs::path program = [&] {
+    try {
+      return built_reference_program();
+    } catch (const meshes::InvalidInput& error) {
+      refuse(std::string("CAD files need fingertip-fem: ") + error.what(), "or export an STL");
+      throw;
+    }
+  }();
   const std::string own = std::to_string(::getpid());
   const fs::path unfinished = folder / ("." + own + ".stl"), words = folder / ("." + own + ".txt");
-  const int code = run_process(
-      {{reference_program().string(), "--triangles", cad.string(), unfinished.string(), up},
-       {"OMP_NUM_THREADS=1"}},
-      words);
+  const int code =
+      run_process({{program.string(), "--triangles", cad.string(), unfinished.string(), up},
+                   {"OMP_NUM_THREADS=1"}},
+                  words);
   const std::string said = meshes::read_text(words);
   fs::remove(words);
   if (code != 0) {

@@ -86,7 +86,7 @@ class Page {
     let area = 0, slips = 0;
     for (let i = 0; i < contact.length; i += contactLength) {
       area += contact[i + 3] ** 2;
-      slips += contact[i + 6] * contact[i + 3] ** 2;
+      if (contact[i + 5] > 0) slips += contact[i + 6] * contact[i + 3] ** 2;
     }
     element('pressure-legend').hidden = area === 0;
     element('slip-legend').hidden = slips === 0;

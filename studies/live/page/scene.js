@@ -259,7 +259,7 @@ class FingerScene {
   }
 
   /// Seven numbers per point of the contact: place, width, pressure, shear, whether it slips [SI].
-  /// Pressure is told by colour, a slip by a ring.
+  /// Pressure is told by colour, a slip by a ring; without friction there is none to tell.
   paintContact(normal, contact) {
     const places = [], colours = [], slips = [];
     let most = 0, width = 0;
@@ -274,7 +274,7 @@ class FingerScene {
       const c = this.lowColour.clone().lerp(this.heldColour, contact[i + 4] / this.mostPressure);
       places.push(...at(0.3));
       colours.push(c.r, c.g, c.b);
-      if (contact[i + 6]) slips.push(...at(0.5));
+      if (contact[i + 6] && contact[i + 5] > 0) slips.push(...at(0.5));
     }
     const put = (spots, name, numbers) => spots.geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(numbers), 3));
     put(this.pressed, 'position', places);

@@ -7,6 +7,8 @@
 #include <thread>
 
 #include "meshes/press/no_equilibrium.h"
+#include "studies/files/places.h"
+#include "studies/files/process.h"
 #include "studies/jobs/fem_launch.h"
 #include "tests/expectations.h"
 #include "tests/temporary_folder.h"
@@ -217,4 +219,34 @@ TEST_F(FemProcess, IsAskedToStopWhenTheUserWantsTo) {
 TEST_F(FemProcess, AMissingProgramIsBadInput) {
   JobContext context;
   EXPECT_THROW(run_fem_process(place_ / "absent", place_.path(), context), meshes::InvalidInput);
+}
+
+/// The launcher that started this program builds what is missing; who has none is told how.
+TEST(BuiltReferenceProgram, IsBuiltByTheLauncherWhenItIsFirstAskedFor) {
+  const fs::path program = reference_program();
+  ASSERT_FALSE(fs::exists(program)) << "beside the tests there is none";
+  const auto refusal = [] {
+    try {
+      built_reference_program();
+    } catch (const meshes::InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("built");
+  };
+  ::unsetenv("FINGERTIP_LAUNCHER");
+  EXPECT_TRUE(says(refusal(), "FINGERTIP_FEM=ON"));
+  const TemporaryFolder folder;
+  const auto launch = [&](const std::string& script) {
+    write_text(folder / "launcher", "#!/bin/sh\n" + script);
+    fs::permissions(folder / "launcher", fs::perms::owner_all);
+    ::setenv("FINGERTIP_LAUNCHER", (folder / "launcher").c_str(), 1);
+  };
+  launch("test \"$1\" = --continuum && : > '" + program.string() + "'");
+  EXPECT_EQ(built_reference_program(), program);
+  fs::remove(program);
+  launch("echo no network; exit 1");
+  EXPECT_TRUE(says(refusal(), {"no network", "./fingertip reference"}));
+  launch("echo another");
+  EXPECT_TRUE(says(refusal(), "no network")) << "it is tried once";
+  ::unsetenv("FINGERTIP_LAUNCHER");
 }
