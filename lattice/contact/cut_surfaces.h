@@ -33,6 +33,11 @@ class CutSurfaces {
   }
   std::vector<std::uint8_t> held() const { return contact_.held(); }
 
+  /// As PenaltyContact::start_at.
+  void start_at(const State& state, const Plane& plane, const Pose& rod) {
+    contact_.start_at(state, plane, rod);
+  }
+
   /// Inertia against the rod in steps of `step` [s], by increasing index.
   std::span<const BondInertia> bond_inertia(double step);
   /// How the plane held in the last apply() with that step [s].

@@ -326,6 +326,24 @@ void PenaltyContact::try_from(const PenaltyContact& accepted) {
   }
 }
 
+void PenaltyContact::start_at(const State& state, const Plane& plane, const Pose& rod) {
+  constexpr double all = -1e300;  // a gap that no point is below
+  plane_ = plane;
+  const kernel::ContactArrays here = arrays(state, plane, 0.0, rod);
+  for (std::uint32_t group = 0; group < shape_->groups.size(); ++group) {
+    const double least = kernels_->look(here, all, group);
+    skip_count_[group] = 0;
+    if (least >= margin_) continue;
+    if (is_near_[group] == 0) enter(group);
+    kernel::ContactMemory& memory = memory_[group];
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const double below = std::fmin(memory.gap.at[lane], 0.0);
+      for (std::size_t c = 0; c < 3; ++c) memory.place[c].at[lane] -= below * here.normal[c];
+      memory.gap.at[lane] -= below;
+    }
+  }
+}
+
 void PenaltyContact::forget_near() {
   for (const std::uint32_t group : near_) {
     is_near_[group] = 0;

@@ -69,6 +69,10 @@ class PenaltyContact {
   Wrench add(const State& state, const Plane& plane, double step, VectorField& force,
              std::vector<SharedLoad>* shared = nullptr, const Pose& rod = {});
 
+  /// As if points that are on the other side of the plane had just come there, from next to where
+  /// they are. Before the first add().
+  void start_at(const State& state, const Plane& plane, const Pose& rod);
+
   /// From now on this is a trial of `accepted`, a contact of the same finger: add() starts from
   /// what that one remembers and looks only at the points that are near to it. Cheap.
   void try_from(const PenaltyContact& accepted);

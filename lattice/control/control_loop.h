@@ -39,6 +39,8 @@ class ControlLoop {
   Pid& servo() { return servo_; }
   /// Finger, controller, servo and hardware as in the beginning.
   void reset();
+  /// Goes on with another finger, which has taken over (VirtualFinger).
+  void go_on_with(VirtualFinger& finger) { finger_ = &finger; }
 
  private:
   void take_measurements(double now);

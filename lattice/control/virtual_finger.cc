@@ -1,6 +1,7 @@
 #include "lattice/control/virtual_finger.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "lattice/dynamics/integrators/make_stepper.h"
 #include "lattice/dynamics/thread_choice.h"
@@ -102,6 +103,16 @@ void VirtualFinger::load(const Snapshot& snapshot) {
   steps_.recall(snapshot.steps);
   stepper_->recall(snapshot.stepper);
   drive_ = snapshot.drive;
+}
+
+void VirtualFinger::take_over(const VirtualFinger& other, State state) {
+  FingerMemory now = start_.finger.memory;
+  now.state = std::move(state);
+  now.rod = other.finger_->rod();
+  now.plane = other.finger_->plane();
+  now.time = other.time();
+  finger_->start_at(now);
+  drive_ = other.drive_;
 }
 
 }  // namespace fingertip::lattice::inline control

@@ -73,6 +73,10 @@ class VirtualFinger {
   Snapshot save() const;
   void load(const Snapshot& snapshot);
   void reset() { load(start_); }  ///< as it was built
+  /// Goes on where `other` is, a finger of the same specimen and surroundings with another lattice;
+  /// `state`: of the particles of this one, which has not moved yet. Points that stick are anchored
+  /// anew where they are, and rubber that relaxes has forgotten its past.
+  void take_over(const VirtualFinger& other, State state);
 
   double time() const { return finger_->time(); }
   const FingerSetup& setup() const { return setup_; }

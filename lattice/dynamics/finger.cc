@@ -47,6 +47,15 @@ void Finger::load(const Snapshot& snapshot) {
   surfaces_ = *snapshot.surfaces;
 }
 
+void Finger::start_at(const FingerMemory& memory) {
+  now_ = memory;
+  CutSurfaces* const ties = std::get_if<CutSurfaces>(&surfaces_);
+  if (ties == nullptr) return;
+  ties->start_at(now_.state, now_.plane, now_.rod.pose());
+  find_forces(0.0);
+  now_.plane_impulse = ties->correct(now_.state, force_, now_.plane, now_.step);
+}
+
 void Finger::find_forces(double step) {
   ++evaluations_;
   double cells = 0.0, surfaces = 0.0, branches = 0.0;
@@ -253,12 +262,26 @@ void Finger::finish_step(double duration, const Wrench& plane_impulse, const Vec
   now_.time += now_.step;
 }
 
-std::vector<meshes::ContactPoint> Finger::contact_field() const {
+std::vector<meshes::ContactPoint> Finger::field_of(std::vector<TiedPoint> points) const {
   const Eigen::Matrix3d to_plane = field_axes(now_.plane.normal).transpose();
-  std::vector<TiedPoint> points = tied_points();
   for (TiedPoint& tied : points)
     for (Vector3* vector : tied.point.vectors()) *vector = to_plane * *vector;
   return contact::contact_field(points, model_->sector.count());
+}
+
+std::vector<meshes::ContactPoint> Finger::contact_now() const {
+  std::vector<TiedPoint> points = tied_points();
+  for (TiedPoint& tied : points) {
+    Vector3 moved = Vector3::Zero();
+    for (std::size_t c = 0; c < 8; ++c)
+      moved += tied.weights[c] * now_.state.displacement.at(tied.particles[c]);
+    tied.point.place = tied.point.rest + model_->grid.axes * moved;
+  }
+  std::vector<meshes::ContactPoint> field = field_of(std::move(points));
+  const Eigen::Matrix3d from_plane = field_axes(now_.plane.normal);
+  for (meshes::ContactPoint& point : field)
+    for (Vector3* vector : point.vectors()) *vector = from_plane * *vector;
+  return field;
 }
 
 double Finger::kinetic_energy() const {

@@ -143,7 +143,9 @@ class Finger {
     return ask([&](const auto& s) { return s.points(now_.state, travel); });
   }
   /// The field of the whole contact (contact_smoothing.h), along field_axes of the plane's normal.
-  std::vector<meshes::ContactPoint> contact_field() const;
+  std::vector<meshes::ContactPoint> contact_field() const { return field_of(tied_points()); }
+  /// The same along the world's axes, its points where they are now.
+  std::vector<meshes::ContactPoint> contact_now() const;
   /// Per boundary particle of the model: 1 where it sticks to the plane or touches it without
   /// friction, 2 where it slides (coulomb), else 0.
   std::vector<std::uint8_t> held() const {
@@ -187,8 +189,12 @@ class Finger {
   };
   Snapshot save() const { return {now_, std::make_shared<const Surfaces>(surfaces_)}; }
   void load(const Snapshot& snapshot);
+  /// Starts anew from another finger's moment: what is on the plane is anchored where it is. Of a
+  /// finger that has not moved yet.
+  void start_at(const FingerMemory& memory);
 
  private:
+  std::vector<meshes::ContactPoint> field_of(std::vector<TiedPoint> points) const;
   void find_forces(double step);
   CutSurfaces& ties();
   Vector6 along_grid(const meshes::Vector3& force, const meshes::Vector3& torque) const;

@@ -61,13 +61,15 @@ struct Packs {
   }
   /// Keeps the compiler from moving what makes `value` behind what follows: it would put operations
   /// off and pass their operands through memory.
-  [[gnu::always_inline]] static void keep(Pack& value) {
+  [[gnu::always_inline]] static void keep([[maybe_unused]] Pack& value) {
+#ifndef __wasm__  // which has no registers
     if constexpr (std::experimental::is_simd_v<Pack>) {
       using Raw [[gnu::vector_size(sizeof(Pack))]] = double;
       Raw raw = static_cast<Raw>(value);
       asm volatile("" : "+v"(raw));
       value = Pack(raw);
     }
+#endif
   }
   static Pack gather(const double* from, const std::uint32_t* index) {
     return Pack([&](auto lane) { return from[index[lane]]; });

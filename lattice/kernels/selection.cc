@@ -8,27 +8,27 @@
 namespace fingertip::lattice::inline kernels::kernel {
 
 SpringForces select(const Variant& variant, int width) {
-  return by_width(width, springs_at<2>, springs_at<4>, springs_at<8>)(variant);
+  return by_width(width, [](auto w) { return springs_at<w()>; })(variant);
 }
 
 MoveParticles select_move(int width) {
-  return by_width(width, move_at<2>, move_at<4>, move_at<8>)();
+  return by_width(width, [](auto w) { return move_at<w()>; })();
 }
 
 CellSweep select_cells(CellLawKind law, CellTask task, int width) {
-  return by_width(width, cells_at<2>, cells_at<4>, cells_at<8>)(law, task);
+  return by_width(width, [](auto w) { return cells_at<w()>; })(law, task);
 }
 
 CellEnergy select_cell_energy(CellLawKind law, int width) {
-  return by_width(width, cell_energy_at<2>, cell_energy_at<4>, cell_energy_at<8>)(law);
+  return by_width(width, [](auto w) { return cell_energy_at<w()>; })(law);
 }
 
 const BondKernels& select_bond(int width) {
-  return by_width(width, bond_at<2>, bond_at<4>, bond_at<8>)();
+  return by_width(width, [](auto w) { return bond_at<w()>; })();
 }
 
 const ContactKernels& select_contact(int width) {
-  return by_width(width, contact_at<2>, contact_at<4>, contact_at<8>)();
+  return by_width(width, [](auto w) { return contact_at<w()>; })();
 }
 
 }  // namespace fingertip::lattice::inline kernels::kernel

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "lattice/contact/contact_smoothing.h"
 #include "lattice/model/cut_tip.h"
 #include "meshes/shape/geometry.h"
 
@@ -76,22 +75,6 @@ std::vector<std::uint8_t> BoundaryView::held(const std::vector<std::uint8_t>& of
   return result;
 }
 
-std::vector<meshes::ContactPoint> BoundaryView::contact(const Finger& finger) const {
-  const Eigen::Matrix3d from_plane = field_axes(finger.plane().normal);
-  std::vector<TiedPoint> points = finger.tied_points();
-  for (TiedPoint& tied : points) {
-    Vector3 moved = Vector3::Zero();
-    for (std::size_t c = 0; c < 8; ++c)
-      moved += tied.weights[c] * finger.state().displacement.at(tied.particles[c]);
-    tied.point.place = tied.point.rest + model_->grid.axes * moved;
-    for (Vector3* vector : tied.point.vectors()) *vector = from_plane.transpose() * *vector;
-  }
-  std::vector<meshes::ContactPoint> field = contact_field(points, model_->sector.count());
-  for (meshes::ContactPoint& point : field)
-    for (Vector3* vector : point.vectors()) *vector = from_plane * *vector;
-  return field;
-}
-
 FingerPicture bare_picture(const Finger& finger, double indentation) {
   FingerPicture picture;
   picture.time = finger.time();
@@ -100,14 +83,6 @@ FingerPicture bare_picture(const Finger& finger, double indentation) {
   picture.endpoint = finger.rod().endpoint();
   picture.on_rod = finger.bond();
   picture.plane = finger.plane();
-  return picture;
-}
-
-FingerPicture take_picture(const Finger& finger, const BoundaryView& view, double indentation) {
-  FingerPicture picture = bare_picture(finger, indentation);
-  picture.boundary = view.deformed(finger.state());
-  picture.held = view.held(finger.held());
-  picture.contact = view.contact(finger);
   return picture;
 }
 

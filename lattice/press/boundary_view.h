@@ -26,9 +26,6 @@ class BoundaryView {
   std::vector<meshes::Vector3> deformed(const State& state) const;
   /// Where the plane holds the finger, of what Finger::held() tells of a finger of this model.
   std::vector<std::uint8_t> held(const std::vector<std::uint8_t>& of_boundary) const;
-  /// The contact of a finger of this model, Finger::contact_field(), along world axes and with its
-  /// points where they are now.
-  std::vector<meshes::ContactPoint> contact(const Finger& finger) const;
 
  private:
   /// A place before it is known whether it is drawn.
@@ -55,13 +52,11 @@ struct FingerPicture {
   Plane plane;
   std::vector<meshes::Vector3> boundary;      ///< BoundaryView::deformed() [m]
   std::vector<std::uint8_t> held;             ///< BoundaryView::held()
-  std::vector<meshes::ContactPoint> contact;  ///< BoundaryView::contact(); of take_picture() alone
+  std::vector<meshes::ContactPoint> contact;  ///< Finger::contact_now(), or none
 };
 
 /// Rod and plane of `finger` now, without what is drawn of its tip. `indentation` [m] is the
 /// caller's.
 FingerPicture bare_picture(const Finger& finger, double indentation);
-/// The same with what `view` shows of the tip.
-FingerPicture take_picture(const Finger& finger, const BoundaryView& view, double indentation);
 
 }  // namespace fingertip::lattice::inline press

@@ -94,8 +94,8 @@ class Press {
   }
   void update();
   FingerPicture picture() {
-    return pictures_.draw(bare_picture(finger_.finger(), indentation()),
-                          particles_of(finger_.finger()));
+    return pictures_.tip().draw(bare_picture(finger_.finger(), indentation()),
+                                particles_of(finger_.finger()));
   }
   void look();
   double expected_time() const;
@@ -138,7 +138,7 @@ Press::Press(const PressSetup& setup, const PressObserver& observer, const Press
                 model().sector.count() == 1 ? &model() : nullptr, Moment::before_contact, outcome_),
       film_(film) {
   if (film_.pictures > 1) film_interval_ = expected_time() / (film_.pictures - 1);
-  outcome_.census = take_census(setup, pictures_.model());
+  outcome_.census = take_census(setup, pictures_.tip().model());
   outcome_.sectors = finger_.setup().sectors;
   outcome_.step = finger_.step_report(setup.controller.period);
   if (finger_.setup().prescribed) {
@@ -162,7 +162,7 @@ void Press::update() {
 void Press::look() {
   if (pictures_.due(indentation(), finger_.finger().touching() > 0)) pictures_.keep(picture());
   if (film_interval_ <= 0.0 || finger_.time() < shown_ * film_interval_) return;
-  film_.show(pictures_.view(), picture());
+  film_.show(pictures_.tip().view(), picture());
   ++shown_;
   last_shown_ = finger_.time();
 }
@@ -324,7 +324,7 @@ PressOutcome Press::run() {
   pictures_.finish(picture());
   // The end may come just before or after the time that was expected.
   if (film_interval_ > 0.0 && finger_.time() > last_shown_ + 0.5 * film_interval_)
-    film_.show(pictures_.view(), picture());
+    film_.show(pictures_.tip().view(), picture());
   update();
   if (observer_) observer_(outcome_, 1.0);
   return std::move(outcome_);

@@ -38,7 +38,7 @@ struct GridError {
   }
 };
 constexpr GridError solid_cells{0.06, 0.15, 0.2, 0.24, 0.15, 0.3};   // hookean, network
-constexpr GridError springs_alone{0.04, 0.1, 1.7, 0.18, 0.25, 0.5};  // central
+constexpr GridError springs_alone{0.04, 0.1, 1.7, 0.18, 0.25, 0.4};  // central
 
 /// F = factor (delta^3/2 + layer delta²).
 struct RoughForce {

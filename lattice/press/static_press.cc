@@ -295,7 +295,7 @@ FingerPicture StaticPress::drawn() {
   bare.plane.normal = plane.normal;
   bare.plane.obstacle = plane.obstacle;
   bare.plane.turned = Eigen::AngleAxisd(now_.contact.pose().twist, plane.normal);
-  return pictures_->draw(std::move(bare), particles, travel);
+  return pictures_->tip().draw(std::move(bare), particles, travel);
 }
 
 /// Frictionless, a state owes nothing to those before it: only samples need slopes.

@@ -6,6 +6,7 @@
 
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/static_contact.h"
+#include "lattice/threads/parallel.h"
 
 namespace fingertip::lattice::inline statics {
 

@@ -112,7 +112,8 @@ std::span<const PressSample> PressResponse::pressing() const {
       std::ranges::adjacent_find(samples_, [](const PressSample& before, const PressSample& now) {
         return before.indentation >= now.indentation || before.stage < now.stage;
       });
-  return {samples_.begin(), follows == samples_.end() ? follows : follows + 1};
+  const auto end = follows == samples_.end() ? follows : follows + 1;
+  return {samples_.data(), std::size_t(end - samples_.begin())};
 }
 
 std::span<const PressSample> PressResponse::sliding() const {

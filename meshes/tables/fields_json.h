@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -86,17 +87,24 @@ Json json_of(const Value& value) {
 }
 
 /// What json_of has made of a value, for files that only programs touch; reading what people may
-/// have damaged: studies/files/read_fields.h. Throws nlohmann::json::exception.
+/// have damaged: studies/files/read_fields.h. Throws nlohmann::json::exception;
+/// std::invalid_argument for a digest.
 template <typename Json, typename Value>
 void read_json(const Json& json, Value& value) {
   if constexpr (HasFields<Value>) {
     for_each_field<Value>([&](const auto& field) {
       const std::string name(field.name);
-      if (field.presence == Presence::always || json.contains(name))
-        read_json(json.at(name), std::invoke(field.member, value));
+      const bool needed = field.presence == Presence::always && field.when == nullptr;
+      if (needed || json.contains(name)) read_json(json.at(name), std::invoke(field.member, value));
     });
+  } else if constexpr (is_optional<Value>) {
+    value.reset();
+    if (!json.is_null()) read_json(json, value.emplace());
   } else if constexpr (is_list<Value>) {
+    value.clear();
     for (const Json& element : json) read_json(element, value.emplace_back());
+  } else if constexpr (requires { value->content(); }) {
+    if (!json.is_null()) throw std::invalid_argument("a digest does not tell what it is of");
   } else if constexpr (requires { value.derived(); }) {  // of Eigen, of fixed size
     for (std::size_t i = 0; i < std::size_t(value.size()); ++i) json.at(i).get_to(value.data()[i]);
   } else if constexpr (std::is_enum_v<Value>) {

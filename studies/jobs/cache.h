@@ -35,6 +35,9 @@ class Cache {
   /// is not there or any file of it is missing, new or another than was stored.
   bool fetch(const Job& job, const std::filesystem::path& target) const;
 
+  /// Whether it keeps a result of `job`, as far as can be told without reading its files.
+  bool keeps(const Job& job) const { return std::filesystem::exists(entry(job)); }
+
   /// Copies the finished `source` into the cache, leaving out what belongs to a run and not to a
   /// job (is_run_file). False when that failed.
   bool store(const Job& job, const std::filesystem::path& source) const;

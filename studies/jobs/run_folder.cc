@@ -209,6 +209,7 @@ void RunFolder::finish(const std::string& status, int exit_code, const std::stri
   manifest_.status = status;
   manifest_.exit_code = exit_code;
   manifest_.finished = utc_now();
+  manifest_.packages = package_versions();  // with those of a continuum that was built on the way
   manifest_.error = error;
   finished_ = true;
   log(fmt::format("{} (exit code {})", status, exit_code));

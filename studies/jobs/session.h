@@ -42,6 +42,7 @@ class Session {
   /// What jobs of later stages will weigh, for the progress.
   void expect_later(double weight) { progress_.expect_later(weight); }
 
+  const Cache& cache() const { return cache_; }
   RunFolder& folder() { return folder_; }
   std::filesystem::path path_of(const PlannedJob& planned) const {
     return planned.name.empty() ? folder_.path() : folder_.path() / planned.name;

@@ -1,7 +1,5 @@
 #include "studies/live/live_view.h"
 
-#include <fmt/format.h>
-
 #include <atomic>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -15,13 +13,6 @@
 namespace fingertip::studies::inline live {
 
 namespace {
-
-/// "hookean lattice, R/12, stick"
-std::string title_of(const lattice::PressSetup& setup) {
-  const double divisor = setup.geometry.tip_radius / setup.lattice.spacing;
-  return fmt::format("{} lattice, R/{:.3g}, {} contact", lattice::name(setup.lattice.model),
-                     divisor, meshes::name(setup.protocol.contact));
-}
 
 /// Speed is the person's to set, so that it does not count.
 PressCondition condition_of(const lattice::PressSetup& setup) {
@@ -60,10 +51,10 @@ double run_live_view(
                                  "the reference " + reference.name, reference.condition);
   }
   std::atomic<LiveServer*> listener = nullptr;
-  Simulation simulation(setup, options.paused, options.rate, [&listener] {
+  Simulation simulation(setup, options.pace, [&listener] {
     if (LiveServer* server = listener) server->frame_ready();
   });
-  LiveServer server(simulation, reference, title_of(setup), options.port);
+  LiveServer server(simulation, reference, options.port);
   listener = &server;
   ready(server.url(), reference.remark ? reference.remark->text : "");
   const auto started = std::chrono::steady_clock::now();

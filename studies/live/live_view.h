@@ -6,15 +6,14 @@
 #include <optional>
 #include <string>
 
-#include "lattice/press/press_setup.h"
+#include "studies/live/paced_rig.h"
 
 namespace fingertip::studies::inline live {
 
 struct LiveOptions {
-  int port = 0;                       ///< on 127.0.0.1; 0: a free one
-  std::filesystem::path reference;    ///< run folder or response.csv; empty: none
-  bool paused = false;                ///< at the start
-  double rate = 1.0;                  ///< wanted real-time factor; 0: as fast as it can
+  int port = 0;                     ///< on 127.0.0.1; 0: a free one
+  std::filesystem::path reference;  ///< run folder or response.csv; empty: none
+  PaceSettings pace;
   std::optional<double> exit_after;   ///< [s] of wall time
   std::function<bool()> interrupted;  ///< asked ten times a second
 };

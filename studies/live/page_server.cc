@@ -4,11 +4,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
-#include "meshes/base/errors.h"
-#include "studies/live/page_files.h"
+#include "studies/live/page_texts.h"
 #include "studies/live/protocol.h"
 
 namespace fingertip::studies::inline live {
@@ -28,15 +25,6 @@ std::string security_headers(int port) {
 std::string_view header(const mg_connection* connection, const char* name) {
   const char* value = mg_get_header(connection, name);
   return value != nullptr ? value : "";
-}
-
-std::string file_content(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw meshes::InvalidInput({"three.js", file.string(), "the file cannot be read",
-                                "install the Debian package libjs-three"});
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::string type_of(const std::filesystem::path& file) {
@@ -64,13 +52,8 @@ Credentials credentials_of(const mg_connection* connection) {
 }
 
 PageServer::PageServer(const Reference& reference) {
-  for (const auto& [name, content] : page_files())
-    files_[name == "index.html" ? "/" : "/" + name] = {type_of(name), std::string(content)};
-  const std::filesystem::path three = "/usr/share/javascript/three";
-  for (const char* script : {"three.min.js", "examples/js/controls/OrbitControls.js"}) {
-    const std::string name = std::filesystem::path(script).filename();
-    files_["/" + name] = {type_of(name), file_content(three / script)};
-  }
+  for (const auto& [name, content] : page_texts())
+    files_[name == "index.html" ? "/" : "/" + name] = {type_of(name), content};
   for (std::size_t i = 0; i < reference.overlays.size(); ++i) {
     files_[fmt::format("/overlay/{}", i)] = {"application/octet-stream",
                                              encode_overlay(reference.overlays[i])};

@@ -18,7 +18,7 @@ Credentials credentials_of(const mg_connection* connection);
 
 class PageServer {
  public:
-  /// three.js is read from where Debian's package has it. Throws InvalidInput when it is not there.
+  /// Throws as page_texts.
   explicit PageServer(const Reference& reference);
 
   /// Answers a request to the server at `port`; returns the status it answered with.

@@ -1,5 +1,7 @@
 #include "studies/live/protocol.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -210,6 +212,22 @@ Json taxels_json(const std::vector<meshes::Taxel>& taxels) {
 }
 
 }  // namespace
+
+LiveScene scene_of(const LiveRig& rig) {
+  const lattice::PressSetup& setup = rig.setup();
+  LiveScene scene;
+  scene.title = fmt::format("{} lattice, R/{:.3g}, {} contact", lattice::name(setup.lattice.model),
+                            setup.geometry.tip_radius / setup.lattice.spacing,
+                            meshes::name(setup.protocol.contact));
+  scene.geometry = setup.geometry;
+  scene.obstacle = setup.protocol.obstacle;
+  scene.limits = rig.limits();
+  scene.taxels = setup.hardware.skin.taxels;
+  scene.springs = rig.boundary().springs();
+  scene.masses = rig.boundary().size();
+  scene.period = rig.period();
+  return scene;
+}
 
 std::string encode_scene(const LiveScene& scene) {
   return text_of({{"type", "scene"},

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -48,12 +49,13 @@ struct LiveScene {
   std::vector<meshes::Taxel> taxels;  ///< of the skin; empty without one
   std::vector<std::array<int, 2>> springs;
   std::size_t masses = 0;
-  double period = 0.0;                           ///< of the controller [s]
-  std::vector<std::array<double, 2>> reference;  ///< indentation [m], normal force [N]
-  std::vector<double> overlays;                  ///< indentations of the continuum's fields [m]
-  std::string remark;                            ///< on the reference; empty without any
-  UnitSystem units = UnitSystem::si;             ///< the page begins with; it has the others, too
-  bool comparable = true;  ///< whether errors against the reference mean anything
+  double period = 0.0;  ///< of the controller [s]
+  /// Indentation [m], normal force and its estimated error [N], NaN where that is not known.
+  std::vector<std::array<double, 3>> reference;
+  std::vector<double> overlays;       ///< indentations of the continuum's fields [m]
+  std::string remark;                 ///< on the reference; empty without any
+  UnitSystem units = UnitSystem::si;  ///< the page begins with; it has the others, too
+  bool comparable = true;             ///< whether errors against the reference mean anything
 };
 
 enum class LiveStatus { running, paused, failed };
@@ -69,8 +71,9 @@ struct LiveState {
 };
 
 struct LiveFrame {
-  std::uint64_t number = 0;  ///< from 1
-  std::uint64_t epoch = 0;   ///< counts the resets
+  std::uint64_t number = 0;                ///< from 1
+  std::shared_ptr<const LiveScene> scene;  ///< another one where the lattice has changed
+  std::uint64_t epoch = 0;                 ///< counts the resets
   LiveStatus status = LiveStatus::paused;
   std::string failure;            ///< why the simulation stopped
   double real_time_factor = 0.0;  ///< achieved
@@ -78,6 +81,8 @@ struct LiveFrame {
   LivePicture picture;
 };
 
+/// What the rig tells of it; title, reference and units are the caller's.
+LiveScene scene_of(const LiveRig& rig);
 /// "scene" as JSON.
 std::string encode_scene(const LiveScene& scene);
 /// "error" as JSON; text that is no UTF-8 is mended.

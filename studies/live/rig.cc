@@ -52,21 +52,29 @@ lattice::PressSetup at_speed(lattice::PressSetup setup, double speed) {
   return setup;
 }
 
+/// Of `setup` one of `sectors` parts.
+std::unique_ptr<lattice::VirtualFinger> finger_of(const lattice::PressSetup& setup,
+                                                  const lattice::PressWay& way, int sectors) {
+  lattice::FingerSetup finger = lattice::finger_setup(setup, way);
+  finger.sectors = sectors;
+  return std::make_unique<lattice::VirtualFinger>(finger);
+}
+
 }  // namespace
 
 LiveRig::LiveRig(const lattice::PressSetup& setup)
     : setup_(under_control(setup)),
       way_(setup_.protocol, setup_.geometry),
-      finger_(lattice::finger_setup(setup_, way_)),
-      boundary_(finger_.model(), setup.geometry),
+      finger_(finger_of(setup_, way_, lattice::moving_sectors(setup_))),
+      tip_(std::make_unique<lattice::WholeTip>(setup_, finger_->model())),
       limits_(limits_for(setup_)),
       set_point_(setup.protocol.speed, setup.protocol.clearance + setup.protocol.depth,
                  setup.protocol.clearance, setup.controller.period),
       estimator_(at_speed(setup_, setup.protocol.speed)) {
   settings_ = {setup.protocol.speed, setup.protocol.depth, setup.controller.natural_frequency,
                setup.controller.derivative_filter, setup.controller.bond_compensation};
-  lattice::ControlTask task = lattice::control_task(setup_, way_, finger_.rod_body());
-  const Vector3 start = finger_.rod_body().endpoint;
+  lattice::ControlTask task = lattice::control_task(setup_, way_, finger_->rod_body());
+  const Vector3 start = finger_->rod_body().endpoint;
   task.path = [this, start](double) { return way_.at(start, set_point_.now()); };
   std::unique_ptr<lattice::Controller> inner;
   if (setup_.make_controller) inner = setup_.make_controller(task);
@@ -75,17 +83,38 @@ LiveRig::LiveRig(const lattice::PressSetup& setup)
     settings_.contact_force = held->force_settings().force;
     limits_.contact_force = contact_forces(held->force_settings());
   }
-  loop_ = std::make_unique<lattice::ControlLoop>(finger_, *controller_, setup_.hardware,
+  loop_ = std::make_unique<lattice::ControlLoop>(*finger_, *controller_, setup_.hardware,
                                                  setup_.controller, task.period);
 }
 
+void LiveRig::go_on_with(const lattice::PressSetup& setup, int sectors) {
+  lattice::PressSetup next = under_control(setup);
+  auto finger = finger_of(next, way_, sectors);
+  auto tip = std::make_unique<lattice::WholeTip>(next, finger->model());
+  lattice::State state = tip_->state_of(finger_->model(), finger_->finger().state());
+  if (sectors > 1 || next.lattice.spacing != setup_.lattice.spacing)
+    state = lattice::carried_over(tip_->model(), state, finger->model());
+  finger->take_over(*finger_, std::move(state));
+  loop_->go_on_with(*finger);
+  finger_ = std::move(finger);
+  tip_ = std::move(tip);
+  setup_ = std::move(next);
+  estimator_ = lattice::ForceEstimator(at_speed(setup_, settings_.speed));
+  ++lattices_;
+}
+
+void LiveRig::go_on_whole(const lattice::PressSetup& setup) {
+  if (sectors() > 1) part_ = {setup_, sectors()};
+  go_on_with(setup, 1);
+}
+
 double LiveRig::indentation() const {
-  return way_.indentation(finger_.rod_body().endpoint, finger_.finger().rod().endpoint(),
+  return way_.indentation(finger_->rod_body().endpoint, finger_->finger().rod().endpoint(),
                           setup_.protocol.clearance);
 }
 
 void LiveRig::advance() {
-  finger_.finger().note_energy();
+  finger_->finger().note_energy();
   loop_->sample();
   loop_->advance();
   set_point_.advance();
@@ -93,9 +122,9 @@ void LiveRig::advance() {
 }
 
 void LiveRig::check_sanity() const {
-  const lattice::Finger::Energy& energy = finger_.finger().noted_energy();  // a period ago
+  const lattice::Finger::Energy& energy = finger_->finger().noted_energy();  // a period ago
   const double largest = 1e3 * setup_.rubber.longitudinal_modulus() * setup_.geometry.tip_volume();
-  const Vector3 travel = finger_.finger().rod().endpoint() - finger_.rod_body().endpoint;
+  const Vector3 travel = finger_->finger().rod().endpoint() - finger_->rod_body().endpoint;
   if (!(energy.kinetic + energy.elastic < largest))
     throw meshes::NotConverged("the lattice blew up");
   const meshes::Geometry& finger = setup_.geometry;
@@ -107,6 +136,8 @@ void LiveRig::check_sanity() const {
 }
 
 void LiveRig::reset() {
+  if (part_) go_on_with(part_->setup, part_->sectors);
+  part_.reset();
   loop_->reset();
   set_point_.restart(0.0);
 }
@@ -142,17 +173,18 @@ void LiveRig::set(const LiveSettings& wanted) {
 }
 
 void LiveRig::hold(const Vector3& place) {
-  const Vector3 start = finger_.rod_body().endpoint;
+  if (sectors() > 1) go_on_whole(setup_);
+  const Vector3 start = finger_->rod_body().endpoint;
   const Vector3 reach = Vector3::Constant(limits_.reach);
   controller_->hand().hold((place - start).cwiseMin(reach).cwiseMax(-reach) + start);
 }
 
 LiveRow LiveRig::row() const {
-  const lattice::RodState& rod = finger_.finger().rod();
+  const lattice::RodState& rod = finger_->finger().rod();
   LiveRow row;
-  row.time = finger_.time();
+  row.time = finger_->time();
   row.indentation = indentation();
-  row.normal_force = finger_.finger().bond().force.dot(way_.plane.normal);
+  row.normal_force = finger_->finger().bond().force.dot(way_.plane.normal);
   row.speed = -rod.velocity_at(rod.endpoint()).dot(way_.plane.normal);
   row.commanded_speed = set_point_.now().speed;
   row.tilt = Eigen::AngleAxisd(rod.pose().orientation).angle();
@@ -169,15 +201,15 @@ double LiveRig::force_error(const LiveRow& row, const lattice::Measurement& meas
   return estimate ? estimate->sum() * sample.normal_force : meshes::unknown;
 }
 
-LivePicture LiveRig::picture() const {
+LivePicture LiveRig::picture() {
   LivePicture picture;
   picture.row = row();
-  picture.measured = finger_.read();
+  picture.measured = finger_->read();
   picture.commanded = loop_->commanded();
   picture.hand = controller_->hand().last();
   picture.hand_place = controller_->hand().place();
   picture.force_error = force_error(picture.row, picture.measured);
-  picture.finger = lattice::take_picture(finger_.finger(), boundary_, picture.row.indentation);
+  picture.finger = tip_->picture(finger_->finger(), picture.row.indentation);
   return picture;
 }
 

@@ -3,14 +3,15 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "lattice/control/control_loop.h"
-#include "lattice/press/boundary_view.h"
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/press_task.h"
+#include "lattice/press/whole_tip.h"
 #include "meshes/tables/file_fields.h"
 #include "studies/live/live_controller.h"
 #include "studies/live/moving_set_point.h"
@@ -73,6 +74,11 @@ struct LivePicture {
   lattice::FingerPicture finger;
 };
 
+/// The same press with another spacing [m]; throws InvalidInput for one that it does not allow.
+using SetupAt = std::function<lattice::PressSetup(double spacing)>;
+
+/// Where mirror images let it, a quarter or half of the tip moves, and the whole from the moment on
+/// when the hand takes the rod.
 class LiveRig {
  public:
   /// A press under its controller, whatever the protocol's mode. Throws InvalidInput.
@@ -83,7 +89,7 @@ class LiveRig {
   /// Advances by one controller period. Throws NotConverged when the lattice gives way,
   /// ControllerFailed.
   void advance();
-  /// As in the beginning, but for the settings.
+  /// As in the beginning, but for the settings; of a part of the tip again.
   void reset();
 
   const LiveSettings& settings() const { return settings_; }
@@ -91,26 +97,41 @@ class LiveRig {
   void set(const LiveSettings& settings);
   const LiveLimits& limits() const { return limits_; }
 
-  /// The hand takes the endpoint toward `place` [m], within its reach.
+  /// Goes on where it is with the lattice of `setup`, the same press with another spacing; see
+  /// VirtualFinger::take_over.
+  void go_on_with(const lattice::PressSetup& setup) { go_on_with(setup, sectors()); }
+  /// With the whole tip, until the next reset.
+  void go_on_whole(const lattice::PressSetup& setup);
+  int sectors() const { return finger_->setup().sectors; }  ///< 4, 2 or 1; one part moves
+  int lattices() const { return lattices_; }                ///< so far
+
+  /// The hand takes the endpoint toward `place` [m], within its reach; of the whole tip.
   void hold(const meshes::Vector3& place);
   void release() { controller_->hand().release(); }
 
-  LivePicture picture() const;
+  LivePicture picture();
   LiveRow row() const;
   const lattice::PressSetup& setup() const { return setup_; }
-  const lattice::BoundaryView& boundary() const { return boundary_; }
+  const lattice::BoundaryView& boundary() const { return tip_->view(); }
   double period() const { return loop_->period(); }
-  double time() const { return finger_.time(); }
+  double time() const { return finger_->time(); }
 
  private:
+  void go_on_with(const lattice::PressSetup& setup, int sectors);
   double indentation() const;
   void check_sanity() const;
   double force_error(const LiveRow& row, const lattice::Measurement& measured) const;
 
   lattice::PressSetup setup_;
   lattice::PressWay way_;
-  lattice::VirtualFinger finger_;
-  lattice::BoundaryView boundary_;
+  std::unique_ptr<lattice::VirtualFinger> finger_;
+  std::unique_ptr<lattice::WholeTip> tip_;
+  int lattices_ = 1;
+  struct Part {
+    lattice::PressSetup setup;
+    int sectors;
+  };
+  std::optional<Part> part_;  ///< what moved until the whole was wanted
   LiveLimits limits_;
   LiveSettings settings_;
   MovingSetPoint set_point_;

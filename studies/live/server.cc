@@ -27,7 +27,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t rows_per_frame = 600;
 constexpr double messages_per_second = 150.0;  ///< of one client, sustained
 
 double seconds_now() {
@@ -39,34 +38,27 @@ double seconds_now() {
 struct LiveServer::Client {
   std::mutex mutex;  ///< held while writing; guards what follows
   bool open = true;
-  std::uint64_t sent = 0, acknowledged = 0, epoch = 0, next_row = 0;
+  Viewer viewer;
   RateLimit rate{messages_per_second, 2.0 * messages_per_second};
 };
 
-LiveServer::LiveServer(Simulation& simulation, const Reference& reference, const std::string& title,
-                       int port)
+LiveServer::LiveServer(Simulation& simulation, const Reference& reference, int port)
     : simulation_(simulation), reference_(reference), page_(reference) {
-  const LiveRig& rig = simulation.rig();
-  LiveScene scene;
+  start(port);
+  sender_ = std::thread([this] { stream(); });
+}
+
+std::string LiveServer::scene_text(const LiveFrame& frame) const {
+  LiveScene scene = *frame.scene;
   if (reference_.remark) {
     scene.remark = reference_.remark->text;
     scene.comparable = !reference_.remark->meaningless;
   }
-  scene.title = title;
   scene.units = shown_units().system;
-  scene.geometry = rig.setup().geometry;
-  scene.obstacle = rig.setup().protocol.obstacle;
-  scene.limits = rig.limits();
-  scene.taxels = rig.setup().hardware.skin.taxels;
-  scene.springs = rig.boundary().springs();
-  scene.masses = rig.boundary().size();
-  scene.period = rig.period();
-  for (const meshes::PressSample& sample : reference.response.pressing())
-    scene.reference.push_back({sample.indentation, sample.normal_force});
-  for (const Overlay& overlay : reference.overlays) scene.overlays.push_back(overlay.indentation);
-  scene_ = encode_scene(scene);
-  start(port);
-  sender_ = std::thread([this] { stream(); });
+  for (const meshes::PressSample& sample : reference_.response.pressing())
+    scene.reference.push_back({sample.indentation, sample.normal_force, sample.force_error});
+  for (const Overlay& overlay : reference_.overlays) scene.overlays.push_back(overlay.indentation);
+  return encode_scene(scene);
 }
 
 LiveServer::~LiveServer() {
@@ -194,7 +186,8 @@ std::shared_ptr<LiveServer::Client> LiveServer::client(const mg_connection* conn
 void LiveServer::greet(mg_connection* connection) {
   const auto us = std::make_shared<Client>();
   // The present frame may be old, for nobody may have watched: only newer ones are for it.
-  us->sent = us->acknowledged = simulation_.frame()->number;
+  const std::shared_ptr<const LiveFrame> last = simulation_.frame();
+  us->viewer = Viewer(last->number);
   const std::lock_guard writing(us->mutex);
   bool full = false;
   {
@@ -207,7 +200,7 @@ void LiveServer::greet(mg_connection* connection) {
     mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_CONNECTION_CLOSE, "", 0);
     return;
   }
-  mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_TEXT, scene_.data(), scene_.size());
+  send_scene(connection, *us, *last);
   simulation_.watched_by(clients());
   frame_ready();
 }
@@ -242,7 +235,7 @@ bool LiveServer::take(mg_connection* connection, int bits, std::string_view text
   if (const Acknowledge* seen = std::get_if<Acknowledge>(&message)) {
     {
       const std::lock_guard lock(us->mutex);
-      if (seen->number <= us->sent) us->acknowledged = std::max(us->acknowledged, seen->number);
+      us->viewer.acknowledge(seen->number);
     }
     frame_ready();
   } else if (!simulation_.post(message)) {
@@ -289,21 +282,22 @@ void LiveServer::stream() {
     const std::shared_ptr<const LiveFrame> frame = simulation_.frame();
     for (auto& [connection, client] : clients) {
       const std::lock_guard lock(client->mutex);
-      const bool waits = client->open && client->acknowledged == client->sent;
-      if (!waits || client->sent == frame->number) continue;
+      if (!client->open || !client->viewer.waits_for(*frame)) continue;
       // The connection outlives this: forget() waits for the client's mutex.
       send_frame(const_cast<mg_connection*>(connection), *client, *frame);
     }
   }
 }
 
+void LiveServer::send_scene(mg_connection* connection, Client& client, const LiveFrame& frame) {
+  const std::string text = scene_text(frame);
+  client.viewer.shown(frame.scene);
+  mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_TEXT, text.data(), text.size());
+}
+
 void LiveServer::send_frame(mg_connection* connection, Client& client, const LiveFrame& frame) {
-  if (client.epoch != frame.epoch) client.next_row = 0;
-  client.epoch = frame.epoch;
-  const LiveRows rows = simulation_.rows_from(client.next_row, rows_per_frame);
-  client.next_row = rows.first;
-  const std::string bytes = encode_frame(frame, rows.rows);
-  client.sent = frame.number;
+  if (!client.viewer.knows(frame.scene)) send_scene(connection, client, frame);
+  const std::string bytes = client.viewer.send(frame, simulation_.rows());
   const int written =
       mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_BINARY, bytes.data(), bytes.size());
   if (written <= 0) client.open = false;

@@ -12,6 +12,7 @@
 #include "studies/live/page_server.h"
 #include "studies/live/reference.h"
 #include "studies/live/simulation.h"
+#include "studies/live/viewer.h"
 
 struct mg_context;
 
@@ -26,10 +27,9 @@ inline constexpr int max_clients = 32;
 /// holds up the others or the simulation for longer than a full socket's time-out.
 class LiveServer {
  public:
-  /// Reads the scene from the simulation's rig; `port` 0: a free one. Throws InvalidInput when
+  /// `port` 0: a free one. Throws InvalidInput when
   /// three.js is missing or the port is taken. Simulation and reference must outlive it.
-  LiveServer(Simulation& simulation, const Reference& reference, const std::string& title,
-             int port);
+  LiveServer(Simulation& simulation, const Reference& reference, int port);
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;
@@ -53,13 +53,14 @@ class LiveServer {
   void forget(const mg_connection* connection);
   std::shared_ptr<Client> client(const mg_connection* connection) const;
   void stream();
+  std::string scene_text(const LiveFrame& frame) const;
+  void send_scene(mg_connection* connection, Client& client, const LiveFrame& frame);
   void send_frame(mg_connection* connection, Client& client, const LiveFrame& frame);
   void say_goodbye();
   void stop();
 
   Simulation& simulation_;
   const Reference& reference_;
-  std::string scene_;
   PageServer page_;
   mg_context* context_ = nullptr;
   int port_ = 0;

@@ -53,6 +53,12 @@ double divided(double period, double step) {
   return period / std::ceil(period / step * (1.0 - 1e-9));
 }
 
+/// A rod under control sways, and in steps as long as the period without end.
+double longest_step(const PressSetup& setup) {
+  const bool controlled = setup.protocol.mode == meshes::DriveMode::pid;
+  return (controlled ? 0.25 : 1.0) * setup.controller.period;
+}
+
 PaceCandidate candidate_at(const PressSetup& setup, bool scalable) {
   PaceCandidate candidate;
   candidate.spacing = setup.lattice.spacing;
@@ -61,7 +67,7 @@ PaceCandidate candidate_at(const PressSetup& setup, bool scalable) {
   const double period = setup.controller.period;
   if (scalable && !setup.time_step) {
     const lattice::ScalingChoice scaling =
-        lattice::best_scaling(setup, period, pace_judged_from(setup));
+        lattice::best_scaling(setup, longest_step(setup), pace_judged_from(setup));
     candidate.integrator = scaling.scaled ? Integrator::mass_scaled : Integrator::symplectic_euler;
     if (scaling.scaled) candidate.step = divided(period, scaling.step);
   }

@@ -60,10 +60,10 @@ double pace_judged_from(const lattice::PressSetup& setup);
 
 /// Spacings from the coarsest that the finger's shape allows, R/n with n growing by an eighth, to
 /// that of `asked`. Of each the integrator of `asked`, or, with `any_integrator`, scaled masses
-/// where they serve with steps up to the control period, else plain ones; the step that `asked`
-/// gives, else the longest that is stable and, of scaled masses, keeps the force within
-/// lattice::tolerated_deviation from pace_judged_from() on; the threads that `asked` gives, else
-/// those that are fastest.
+/// where they serve with steps up to the control period, or a quarter of it under control, else
+/// plain ones; the step that `asked` gives, else the longest that is stable and, of scaled masses,
+/// keeps the force within lattice::tolerated_deviation from pace_judged_from() on; the threads that
+/// `asked` gives, else those that are fastest.
 std::vector<PaceCandidate> pace_candidates(const lattice::PressSetup& asked, bool any_integrator,
                                            int cores);
 

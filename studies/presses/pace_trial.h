@@ -43,8 +43,9 @@ LoadedConfig with_any_integrator(const LoadedConfig& asked);
 /// steps are not told.
 std::vector<std::string> settings_of(const PaceCandidate& taken, const LoadedConfig& asked);
 
-/// The search on this machine with presses of `asked` on up to `cores` cores. Throws NotConverged
-/// where not even the coarsest lattice keeps up, and as measured_factor.
-PaceSearch search_pace_here(const LoadedConfig& asked, int cores);
+/// The search on this machine with presses of `asked` on up to `cores` cores. Throws as
+/// measured_factor; but a press that does not converge is, with `any_depth`, one that does not keep
+/// up: who decides on the depth later may press less.
+PaceSearch search_pace_here(const LoadedConfig& asked, int cores, bool any_depth = false);
 
 }  // namespace fingertip::studies::inline presses

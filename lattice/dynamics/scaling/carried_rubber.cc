@@ -13,8 +13,8 @@ using meshes::Vector3;
 namespace {
 
 const sweeps::BodyLoops& body_loops() {
-  static const sweeps::BodyLoops& widest = kernel::by_width(
-      0, sweeps::body_loops_at<2>, sweeps::body_loops_at<4>, sweeps::body_loops_at<8>)();
+  static const sweeps::BodyLoops& widest =
+      kernel::by_width(0, [](auto w) { return sweeps::body_loops_at<w()>; })();
   return widest;
 }
 

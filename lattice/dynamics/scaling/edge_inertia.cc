@@ -16,8 +16,8 @@ using Shares = sweeps::EdgeShares;
 constexpr std::size_t edges_at_once = 32;  // packs of eight cells
 
 const sweeps::EdgeLoops& edge_loops() {
-  static const sweeps::EdgeLoops& widest = kernel::by_width(
-      0, sweeps::edge_loops_at<2>, sweeps::edge_loops_at<4>, sweeps::edge_loops_at<8>)();
+  static const sweeps::EdgeLoops& widest =
+      kernel::by_width(0, [](auto w) { return sweeps::edge_loops_at<w()>; })();
   return widest;
 }
 

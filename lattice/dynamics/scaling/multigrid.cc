@@ -11,7 +11,7 @@ namespace {
 
 const sweeps::Loops& loops() {
   static const sweeps::Loops& widest =
-      kernel::by_width(0, sweeps::loops_at<2>, sweeps::loops_at<4>, sweeps::loops_at<8>)();
+      kernel::by_width(0, [](auto w) { return sweeps::loops_at<w()>; })();
   return widest;
 }
 

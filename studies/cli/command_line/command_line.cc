@@ -36,6 +36,7 @@ constexpr Verb verbs[] = {
     {"press", "press the lattice", "", "", everything},
     {"live", "press the lattice in a web page: look, set, drag; on this machine only", "", "",
      config_options},
+    {"web", "write the live view as a folder that a browser runs by itself", "", "", everything},
     {"modes", "natural frequencies of the lattice bonded to a fixed rod", "", "", everything},
     {"grasp", "let two fingers grasp and lift a rigid block", "", "", everything},
     {"reference", "press the continuum (finite elements)", "", "", everything},

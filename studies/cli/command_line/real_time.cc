@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calibration/files/words.h"
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/tables/fields_json.h"
@@ -45,6 +46,17 @@ RealTimeRecord record_of(const PaceSearch& search) {
   return record;
 }
 
+/// Where nothing keeps up the coarsest lattice is taken, unless real time is `demanded`.
+RealTimeRecord searched_record(const LoadedConfig& asked, bool demanded) {
+  const PaceSearch search = search_pace_here(asked, cores_for(asked), !demanded);
+  if (search.choice.found || !demanded) return record_of(search);
+  throw meshes::NotConverged(fmt::format(
+      "--real-time: not even the coarsest lattice that this finger allows, {} m, keeps up with "
+      "this press on this machine: a real-time factor of {:.2g} is expected, {:.3g} wanted; "
+      "press more slowly, so that scaled masses serve with longer steps, or leave --real-time out",
+      calibration::rounded(search.taken().spacing), search.choice.factor, pace_margin));
+}
+
 /// What an earlier run of the same command chose.
 std::optional<RealTimeRecord> kept_record(const CommandLine& line, const std::string& asked) {
   const fs::path file = line.out / real_time_name;
@@ -81,8 +93,7 @@ std::string step_text(double step) {
 RealTimeRun real_time_run(const CommandLine& line) {
   watch_for_interrupts();
   LoadedConfig asked = with_any_integrator(load_checked(line));
-  // In the live view people push the rod wherever they like.
-  if (line.verb == "live") asked = with_sets(asked, {"run.symmetry=false"});
+  if (line.verb == "live") asked = with_sets(asked, {as_a_person_presses});
   if (line.verb == "press" && asked.config.press.protocol.mode == meshes::DriveMode::equilibrium)
     throw ConfigError({"press.mode", "static", "a press in equilibrium has no time to keep up with",
                        "choose pid or quasi-static", "--real-time"});
@@ -91,7 +102,7 @@ RealTimeRun real_time_run(const CommandLine& line) {
   if (const auto kept = kept_record(line, identity))
     run.record = *kept;
   else
-    run.record = record_of(search_pace_here(asked, cores_for(asked)));
+    run.record = searched_record(asked, line.real_time);
   run.record.asked = identity;
   run.loaded = with_sets(asked, settings_of(candidate_of(run.record), asked));
   return run;
@@ -102,7 +113,7 @@ std::string RealTimeRun::note() const {
   const meshes::Geometry& geometry = loaded.config.press.geometry;
   const bool as_asked = same_spacing(record.spacing, record.spacing_asked);
   return fmt::format(
-      "--real-time: spacing {}{}, {}, steps of {}{}, threads: {}; expected real-time factor in the "
+      "real time: spacing {}{}, {}, steps of {}{}, threads: {}; expected real-time factor in the "
       "slowest 10 ms: {:.3g}, from {}",
       spelt(record.spacing, geometry),
       as_asked ? ", as asked" : " where " + spelt(record.spacing_asked, geometry) + " was asked",

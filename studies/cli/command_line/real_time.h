@@ -10,12 +10,15 @@
 
 namespace fingertip::studies::inline cli::inline command_line {
 
+/// Whatever a configuration says: in the live view a controller moves the rod.
+inline constexpr const char* as_a_person_presses = "press.mode=pid";
+
 /// What keeps up in the place of what `line` asks for.
 struct RealTimeRun {
   LoadedConfig loaded;
   RealTimeRecord record;
 
-  /// "--real-time: ..." for the screen and the log.
+  /// "real time: ..." for the screen and the log.
   std::string note() const;
   /// Writes real_time.json.
   void write(const std::filesystem::path& folder) const;
@@ -26,7 +29,8 @@ struct RealTimeRun {
 };
 
 /// Searches on this machine (search_pace_here), or takes the choice that a resumed run folder kept
-/// for the same press. Throws ConfigError for a press without time, and as search_pace_here.
+/// for the same press. Throws ConfigError for a press without time, NotConverged where nothing
+/// keeps up and --real-time demands it, and as search_pace_here.
 RealTimeRun real_time_run(const CommandLine& line);
 
 }  // namespace fingertip::studies::inline cli::inline command_line

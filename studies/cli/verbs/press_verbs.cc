@@ -252,11 +252,12 @@ std::optional<ForceErrorEntry> find_force_error(ErrorSource source,
   return entry;
 }
 
-/// error_source, but for a continuum that is not built yet and not asked for.
-ErrorSource source_at_hand(const LoadedConfig& loaded) {
+/// error_source, but for a continuum that is not built yet, not asked for and not kept.
+ErrorSource source_at_hand(const LoadedConfig& loaded, const Cache& cache) {
   ErrorSource source = error_source(loaded);
   if (source.continuum && loaded.config.force_error == ForceErrorBy::automatic &&
-      !std::filesystem::exists(reference_program()))
+      !std::filesystem::exists(reference_program()) &&
+      !cache.keeps(reference_job(*source.continuum)))
     return estimated_source(loaded.config.press.lattice.model,
                             "the continuum is not built (`./fingertip reference` does it)");
   return source;
@@ -282,7 +283,7 @@ int run_press(const CommandLine& line) {
   }
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const std::filesystem::path& folder = session.folder().path();
-    const ErrorSource source = source_at_hand(loaded);
+    const ErrorSource source = source_at_hand(loaded, session.cache());
     if (source.continuum) session.expect_later(reference_job(*source.continuum).weight);
     Job job = press_job(setup, line.movie);
     if (real_time) {

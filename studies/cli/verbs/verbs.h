@@ -37,5 +37,6 @@ int run_explain(const CommandLine& line);
 int run_init(const CommandLine& line);
 int run_doctor(const CommandLine& line);
 int run_bench(const CommandLine& line);
+int run_web(const CommandLine& line);
 
 }  // namespace fingertip::studies::inline cli::inline verbs

@@ -16,26 +16,11 @@ class Page {
     this.makeHand();
     this.scene.orbit.addEventListener('change', () => this.redraw());
     window.addEventListener('resize', () => this.redraw());
-    this.connect();
+    const take = (data) => { if (typeof data === 'string') this.take(JSON.parse(data)); else this.takeFrame(data); };
+    this.connection = new Connection(take, () => this.status('disconnected'));
   }
 
-  connect() {
-    const token = new URLSearchParams(window.location.search).get('token');
-    if (token) window.history.replaceState(null, '', '/');  // the cookie has it now
-    this.socket = new WebSocket(`ws://${window.location.host}/stream`);
-    this.socket.binaryType = 'arraybuffer';
-    this.socket.onmessage = (event) => {
-      if (typeof event.data === 'string') this.take(JSON.parse(event.data)); else this.takeFrame(event.data);
-    };
-    this.socket.onclose = () => {
-      this.status('disconnected');
-      setTimeout(() => this.connect(), 1000);
-    };
-  }
-
-  send(message) {
-    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
-  }
+  send(message) { this.connection.send(JSON.stringify(message)); }
 
   take(message) {
     if (message.type === 'error') this.notice(message.message);
@@ -253,7 +238,7 @@ class Page {
   drawPlots(frame) {
     const length = Units.factor('length'), force = Units.factor('force'), speed = Units.factor('speed');
     const { rows, about } = this;
-    this.forcePlot.series[0].points = about.reference.map(([x, y]) => [x * length, y * force]);
+    this.forcePlot.series[0].points = about.reference.map(([x, y, e]) => [x * length, y * force, e * force]);
     this.forcePlot.series[1].points = rows.map((row) => [row[1] * length, row[2] * force]);
     const first = about.comparable && about.reference.length > 0 ? about.reference[0][0] : Infinity;
     const error = (indentation, value) => (indentation >= first ? 100 * (value / this.referenceForce(indentation) - 1) : NaN);

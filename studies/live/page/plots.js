@@ -153,6 +153,7 @@ class Plot {
         drawing = true;
       }
       pen.stroke();
+      this.drawErrors(pen, points, X, Y);
       const last = points[points.length - 1];
       if (last && !dashed && Number.isFinite(last[1])) {
         pen.fillStyle = colour(name);
@@ -160,6 +161,18 @@ class Plot {
       }
     }
     pen.restore();
+  }
+
+  /// A bar for each point that has an error, its third number.
+  drawErrors(pen, points, X, Y) {
+    pen.setLineDash([]);
+    for (const [x, y, error] of points) {
+      if (!(error > 0)) continue;
+      pen.beginPath();
+      for (const end of [y - error, y + error]) { pen.moveTo(X(x) - 3, Y(end)); pen.lineTo(X(x) + 3, Y(end)); }
+      pen.moveTo(X(x), Y(y - error)); pen.lineTo(X(x), Y(y + error));
+      pen.stroke();
+    }
   }
 
   drawKeys(pen, colour, right) {

@@ -26,7 +26,7 @@ class FingerScene {
 
   build(scene) {
     for (const old of [this.tip, this.rod, this.plane, this.forceArrow, this.torqueArrow, this.handLine, this.pressed, this.slipping]) {
-      if (old) this.scene.remove(old);
+      if (old) this.discard(old);
     }
     this.geometry = scene.geometry;
     this.buildTip(scene);
@@ -47,6 +47,18 @@ class FingerScene {
     this.scene.add(this.handLine);
     this.recolour();
     this.ready = true;
+  }
+
+  /// With what it holds of the graphics card.
+  discard(old) {
+    this.scene.remove(old);
+    old.traverse(({ geometry, material }) => {
+      if (geometry) geometry.dispose();
+      for (const one of [material || []].flat()) {
+        if (one.map) one.map.dispose();
+        one.dispose();
+      }
+    });
   }
 
   buildTip(scene) {

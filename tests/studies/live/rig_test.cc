@@ -2,15 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "lattice/control/force_controller.h"
 #include "lattice/press/press.h"
+#include "studies/live/paced_rig.h"
 #include "tests/coarse_press.h"
 #include "tests/fingers.h"
 
 using namespace fingertip;
 using namespace fingertip::studies;
+using namespace std::chrono_literals;
 using meshes::Vector3;
 
 TEST(MovingSetPoint, ArrivesWithoutJumpsOrOvershoot) {
@@ -233,4 +236,115 @@ TEST(LiveRig, AContactForceIsHeldAndChangedOnTheWay) {
   rig.set(settings);
   EXPECT_EQ(rig.settings().contact_force, rig.limits().contact_force->most);
   EXPECT_FALSE(LiveRig(coarse_press()).limits().contact_force);
+}
+
+namespace {
+
+lattice::PressSetup at_spacing(double spacing) {
+  lattice::PressSetup setup = coarse_press();
+  setup.lattice.spacing = spacing;
+  setup.lattice.constants = lattice::hookean_constants(setup.rubber, spacing);
+  return setup;
+}
+
+}  // namespace
+
+TEST(LiveRig, MovesAQuarterUntilTheHandTakesTheRod) {
+  lattice::PressSetup whole = coarse_press();
+  whole.time_step = 1e-5;  // the longest stable one is another for a part
+  LiveRig rig(whole);
+  EXPECT_EQ(rig.sectors(), 4);
+  whole.symmetry = false;
+  LiveRig other(whole);
+  EXPECT_EQ(other.sectors(), 1);
+  EXPECT_EQ(rig.boundary().rest(), other.boundary().rest());  // what is drawn is all of it
+  const auto expect_same = [&](double allowed) {
+    const LivePicture a = rig.picture(), b = other.picture();
+    EXPECT_NEAR(a.row.normal_force, b.row.normal_force, allowed * b.row.normal_force);
+    EXPECT_EQ(a.finger.held, b.finger.held);
+    for (std::size_t i = 0; i < a.finger.boundary.size(); ++i)
+      EXPECT_LT((a.finger.boundary[i] - b.finger.boundary[i]).norm(), allowed * 1e-3);
+  };
+  while (rig.row().indentation < 0.8e-3) {
+    rig.advance();
+    other.advance();
+  }
+  expect_same(1e-7);
+  const Vector3 place = other.picture().measured.pose.position + Vector3(0.5e-3, 0.0, 0.0);
+  rig.hold(place);
+  other.hold(place);
+  EXPECT_EQ(rig.sectors(), 1);
+  EXPECT_EQ(rig.lattices(), 2);
+  for (int i = 0; i < 20; ++i) {
+    rig.advance();
+    other.advance();
+  }
+  // What sticks was anchored anew.
+  EXPECT_NEAR(rig.row().normal_force, other.row().normal_force, 0.01 * other.row().normal_force);
+  const Vector3 pulled = other.picture().measured.wrench.force;
+  EXPECT_GT(std::abs(pulled.x()), 2e-5);
+  EXPECT_NEAR(rig.picture().measured.wrench.force.x(), pulled.x(), 0.05 * std::abs(pulled.x()));
+  rig.reset();
+  EXPECT_EQ(rig.sectors(), 4);
+}
+
+TEST(LiveRig, GoesOnWithACoarserLattice) {
+  LiveRig rig(at_spacing(0.01 / 8)), coarse(at_spacing(0.01 / 5));
+  const auto rest = [&] {  // the rubber sways on its rod for a while
+    for (int i = 0; i < 250; ++i) {
+      rig.advance();
+      coarse.advance();
+    }
+  };
+  rest();
+  rig.go_on_with(at_spacing(0.01 / 5));
+  EXPECT_EQ(rig.sectors(), 4);
+  EXPECT_NEAR(rig.time(), coarse.time(), 1e-12);
+  rest();
+  EXPECT_NEAR(rig.row().indentation, coarse.row().indentation, 2e-6);
+  EXPECT_NEAR(rig.row().normal_force, coarse.row().normal_force, 0.02 * coarse.row().normal_force);
+  EXPECT_EQ(rig.picture().finger.boundary.size(), coarse.picture().finger.boundary.size());
+}
+
+namespace {
+
+/// Runs for `seconds` of wall time, as a thread of the program does, or until the lattice changes.
+LiveFrame run_paced(PacedRig& paced, double seconds) {
+  const auto end = PacedRig::Clock::now() + std::chrono::duration<double>(seconds);
+  const auto scene = paced.scene();
+  while (PacedRig::Clock::now() < end && paced.scene() == scene) {
+    paced.advance();
+    while (PacedRig::Clock::now() < std::min(paced.due(), PacedRig::Clock::now() + 50ms)) {
+    }
+    paced.measure_pace();
+  }
+  return paced.frame();
+}
+
+}  // namespace
+
+TEST(PacedRig, FallsBackToACoarserLatticeThatKeepsUp) {
+  const auto coarser = [](double) { return at_spacing(0.01 / 4); };
+  PacedRig paced(at_spacing(0.01 / 16), {false, 1.0, coarser});  // far too fine
+  const auto scene = paced.frame().scene;
+  EXPECT_EQ(scene->title.find("hookean lattice, R/16"), 0U) << scene->title;
+  const LiveFrame frame = run_paced(paced, 60.0);
+  EXPECT_EQ(frame.scene->title, "hookean lattice, R/4, stick contact, coarser to keep up");
+  EXPECT_NE(frame.scene, scene);
+  EXPECT_EQ(frame.scene->masses, frame.picture.finger.boundary.size());
+  EXPECT_GT(frame.picture.row.time, 0.0);
+}
+
+TEST(PacedRig, ObeysWhoeverAskedForALattice) {
+  PacedRig paced(at_spacing(0.01 / 16), {false, 1.0, {}});
+  EXPECT_EQ(run_paced(paced, 2.0).scene->title, "hookean lattice, R/16, stick contact");
+  EXPECT_LT(paced.slowest_factor(), 0.9);
+}
+
+TEST(PacedRig, TakesWhatTheFingersShapeAllowsAndThenStays) {
+  const auto none = [](double) -> lattice::PressSetup {
+    throw meshes::InvalidInput({"lattice.spacing", "", "too coarse", ""});
+  };
+  PacedRig paced(at_spacing(0.01 / 16), {false, 1.0, none});
+  EXPECT_EQ(run_paced(paced, 2.0).scene->title, "hookean lattice, R/16, stick contact");
 }

@@ -96,10 +96,10 @@ class Page {
 class LiveServerTest : public testing::Test {
  protected:
   void SetUp() override {
-    simulation_ = std::make_unique<Simulation>(coarse_press(), true, 0.0, [this] {
+    simulation_ = std::make_unique<Simulation>(coarse_press(), PaceSettings{true, 0.0, {}}, [this] {
       if (LiveServer* server = listener_) server->frame_ready();
     });
-    server_ = std::make_unique<LiveServer>(*simulation_, reference_, "test", 0);
+    server_ = std::make_unique<LiveServer>(*simulation_, reference_, 0);
     listener_ = server_.get();
   }
   void TearDown() override {
@@ -193,7 +193,7 @@ TEST_F(LiveServerTest, RefusesForeignOriginsAndWrongTokens) {
 TEST_F(LiveServerTest, StepsRunsResetsAndClampsSettings) {
   const auto page = this->page();
   ASSERT_TRUE(page->wait_for(has_frame));
-  EXPECT_EQ(page->scene.at("title"), "test");
+  EXPECT_EQ(page->scene.at("title"), "hookean lattice, R/5, stick contact");
   EXPECT_EQ(page->scene.at("masses"), page->frame.at("masses"));
   page->send(R"({"type":"step"})");
   EXPECT_TRUE(page->wait_for(
@@ -317,6 +317,5 @@ TEST_F(LiveServerTest, RandomBytesDoNotBreakIt) {
 }
 
 TEST_F(LiveServerTest, ATakenPortIsRefused) {
-  EXPECT_THROW(LiveServer(*simulation_, reference_, "second", server_->port()),
-               meshes::InvalidInput);
+  EXPECT_THROW(LiveServer(*simulation_, reference_, server_->port()), meshes::InvalidInput);
 }

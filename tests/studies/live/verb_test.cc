@@ -43,7 +43,7 @@ TEST(LiveVerb, InRealTimeItKeepsWhatItChose) {
     GTEST_SKIP() << "this machine keeps up with no lattice";
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(quoted_address(result.out), "") << result.out;
-  EXPECT_TRUE(says(result.err, "--real-time: spacing"));
+  EXPECT_TRUE(says(result.err, "real time: spacing"));
   EXPECT_TRUE(says(result.out, "force error"));
   const std::filesystem::path run = std::filesystem::directory_iterator(folder / "runs")->path();
   EXPECT_TRUE(says(read_text(run / "real_time.json"), "\"slowest_factor\""));

@@ -152,7 +152,8 @@ TEST(PaceCandidates, GoFromTheCoarsestLatticeToTheOneThatWasAsked) {
 }
 
 TEST(PaceCandidates, StepsKeepTheForceAndAreAsLongAsThat) {
-  const LoadedConfig asked = config_of({"lattice.spacing=tip_radius/24"});
+  const LoadedConfig asked =
+      config_of({"lattice.spacing=tip_radius/24", "press.mode=quasi-static"});
   auto setup = press_setup(asked);
   bool scaled = false;
   for (const PaceCandidate& press : pace_candidates(setup, true, 2)) {
@@ -176,6 +177,17 @@ TEST(PaceCandidates, StepsKeepTheForceAndAreAsLongAsThat) {
     }
   }
   EXPECT_TRUE(scaled);
+}
+
+TEST(PaceCandidates, StepsUnderControlAreAQuarterOfItsPeriodAtMost) {
+  const auto setup = press_setup(config_of({"lattice.spacing=tip_radius/12"}));
+  bool longest = false;
+  for (const PaceCandidate& press : pace_candidates(setup, true, 2)) {
+    if (press.integrator != Integrator::mass_scaled) continue;
+    EXPECT_LE(press.step, 0.25 * setup.controller.period * (1.0 + 1e-9));
+    longest = longest || press.step > 0.24 * setup.controller.period;
+  }
+  EXPECT_TRUE(longest);
 }
 
 TEST(PaceCandidates, WhatIsGivenStays) {

@@ -32,7 +32,7 @@ class Engine {
 namespace {
 
 SweepOffer offer(int width) {
-  return kernel::by_width(width, sweep_at<2>, sweep_at<4>, sweep_at<8>)();
+  return kernel::by_width(width, [](auto w) { return sweep_at<w()>; })();
 }
 
 template <typename Real>
