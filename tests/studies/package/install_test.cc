@@ -1,4 +1,4 @@
-// `cmake --install` into an empty folder: its programs run, its libraries are found and linked.
+// The two packages, unpacked into an empty folder: programs run, libraries are found and linked.
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ void run(const TemporaryFolder& folder, const std::string& command) {
 
 TEST(Install, ProgramsRunAndLibrariesAreFound) {
   const TemporaryFolder folder;
-  run(folder,
-      "cmake --install '" FINGERTIP_BUILD "' --prefix '" + (folder / "there").string() + "'");
+  run(folder, "cpack -G DEB --config '" FINGERTIP_BUILD "/CPackConfig.cmake' -B packages");
+  run(folder, "for p in packages/*.deb; do dpkg-deb -x $p unpacked; done; mv unpacked/usr there");
   run(folder,
       "there/bin/fingertip press --set press.mode=static --set lattice.spacing=tip_radius/4 "
       "--out pressed");
@@ -29,7 +29,7 @@ TEST(Install, ProgramsRunAndLibrariesAreFound) {
             std::string::npos);
   run(folder, "there/bin/fingertip export --format fmu --out unit");
   run(folder,
-      "PYTHONPATH=there/lib/fingertip/python /usr/bin/python3 -c 'import fingertip; "
+      "PYTHONPATH=there/lib/python3/dist-packages /usr/bin/python3 -c 'import fingertip; "
       "print(fingertip.press(press_mode=\"static\", lattice_spacing=\"tip_radius/4\", "
       "out=\"by_python\"))'");
   write_text(folder / "CMakeLists.txt",
