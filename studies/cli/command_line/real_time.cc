@@ -90,10 +90,14 @@ std::string step_text(double step) {
 
 }  // namespace
 
+std::vector<std::string> as_a_person_presses() {
+  return {"press.mode=pid", "press.program=[]", "press.twist=0 deg"};
+}
+
 RealTimeRun real_time_run(const CommandLine& line) {
   watch_for_interrupts();
   LoadedConfig asked = with_any_integrator(load_checked(line));
-  if (line.verb == "live") asked = with_sets(asked, {as_a_person_presses});
+  if (line.verb == "live") asked = with_sets(asked, as_a_person_presses());
   if (line.verb == "press" && asked.config.press.protocol.mode == meshes::DriveMode::equilibrium)
     throw ConfigError({"press.mode", "static", "a press in equilibrium has no time to keep up with",
                        "choose pid or quasi-static", "--real-time"});

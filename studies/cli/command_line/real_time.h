@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lattice/press/press_setup.h"
 #include "studies/cli/command_line/command_line.h"
@@ -10,8 +11,9 @@
 
 namespace fingertip::studies::inline cli::inline command_line {
 
-/// Whatever a configuration says: in the live view a controller moves the rod.
-inline constexpr const char* as_a_person_presses = "press.mode=pid";
+/// Settings of the live view, whatever a configuration says: a controller moves the rod where a
+/// person wants it.
+std::vector<std::string> as_a_person_presses();
 
 /// What keeps up in the place of what `line` asks for.
 struct RealTimeRun {

@@ -105,7 +105,7 @@ int serve_as_asked(const CommandLine& line, const LoadedConfig& asked) {
 }  // namespace
 
 int run_live(const CommandLine& line) {
-  const LoadedConfig asked = with_sets(load_checked(line), {as_a_person_presses});
+  const LoadedConfig asked = with_sets(load_checked(line), as_a_person_presses());
   const ShowIn units(asked_units(asked));
   watch_for_interrupts();
   const auto is_given = [&](const char* key) { return asked.entries.at(key).given; };

@@ -25,6 +25,15 @@ TEST(LiveVerb, PrintsItsAddressAndEndsByItself) {
   EXPECT_TRUE(made_in(folder.path()).empty());
 }
 
+TEST(LiveVerb, TakesAnyPressThatAPersonThenMoves) {
+  const Workplace folder;
+  const std::string examples = std::string(FINGERTIP_SOURCES) + "/studies/examples/";
+  for (const std::string start : {"aside.toml", "relaxing.toml", "skin.toml", "edge.toml"}) {
+    const std::string told = folder.run("live --exit-after 0.1 --config " + examples + start).out;
+    EXPECT_TRUE(says(told, "expected real-time factor")) << start << told;
+  }
+}
+
 TEST(LiveVerb, EndsCleanlyWhenInterrupted) {
   const Workplace folder;
   Program program = folder.start("live --rate 0 --running --exit-after 60", coarse);
