@@ -11,8 +11,8 @@
 
 namespace fingertip::studies::inline cli::inline command_line {
 
-/// Settings of the live view, whatever a configuration says: a controller moves the rod where a
-/// person wants it.
+/// Settings of the live view and the page by itself, whatever a configuration says: a controller
+/// moves the rod where a person wants it.
 std::vector<std::string> as_a_person_presses();
 
 /// What keeps up in the place of what `line` asks for.

@@ -93,7 +93,7 @@ void tell_expected(const lattice::PressSetup& setup) {
 
 /// As it was asked for, however slow.
 int serve_as_asked(const CommandLine& line, const LoadedConfig& asked) {
-  const LoadedConfig loaded = at_pace(asked);
+  const LoadedConfig loaded = at_pace(with_sets(asked, as_a_person_presses()));
   const lattice::PressSetup setup = press_setup(with_material(loaded, LatticeUse::press));
   if (const std::string note = spacing_note(loaded); !note.empty())
     fmt::print(stderr, "fingertip: note: {}\n", note);
@@ -105,7 +105,7 @@ int serve_as_asked(const CommandLine& line, const LoadedConfig& asked) {
 }  // namespace
 
 int run_live(const CommandLine& line) {
-  const LoadedConfig asked = with_sets(load_checked(line), as_a_person_presses());
+  const LoadedConfig asked = load_checked(line);
   const ShowIn units(asked_units(asked));
   watch_for_interrupts();
   const auto is_given = [&](const char* key) { return asked.entries.at(key).given; };

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "meshes/press/press_response.h"
+#include "studies/cli/command_line/real_time.h"
 #include "studies/cli/command_line/run_verb.h"
 #include "studies/cli/verbs/verbs.h"
 #include "studies/config/asked_units.h"
@@ -26,9 +27,6 @@ constexpr std::array divisors = {6, 8, 10, 12};
 /// Of studies/examples: beside the dome what a page may press, which has no solids.
 constexpr std::array examples = {"solid_finger", "hollow_finger", "flat_ellipsoid"};
 
-/// A page has the built-in servo alone.
-const std::string under_control = "press.mode=pid";
-
 struct Source {
   std::string name;
   LoadedConfig loaded;
@@ -37,8 +35,7 @@ struct Source {
 LoadedConfig loaded_from(const CommandLine& line, const fs::path& file) {
   ConfigSource source = line.config;
   if (!file.empty()) source.file = file;
-  source.sets.push_back(under_control);
-  return with_any_integrator(load_config(source));
+  return with_any_integrator(with_sets(load_config(source), as_a_person_presses()));
 }
 
 /// The finger that somebody has configured, or the dome and the examples.

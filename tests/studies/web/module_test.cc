@@ -11,6 +11,7 @@
 #include "studies/web/web_folder.h"
 #include "tests/coarse_press.h"
 #include "tests/fingers.h"
+#include "tests/studies/presses/pictures/vtk_reader.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -19,21 +20,6 @@ using namespace fingertip::studies;
 namespace {
 
 constexpr int periods = 45;  // to 1 mm and some rest
-
-std::string decoded(const std::string& base64) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  unsigned buffer = 0, bits = 0;
-  for (const char c : base64) {
-    if (c == '=') break;
-    buffer = (buffer << 6U) | unsigned(digits.find(c));
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes.push_back(char((buffer >> bits) & 0xffU));
-  }
-  return bytes;
-}
 
 nlohmann::json head_of(const std::string& frame) {
   std::uint32_t length = 0;
