@@ -16,6 +16,10 @@ namespace {
 using meshes::ContactMode;
 
 constexpr int max_rounds = 400;
+/// Feet stay where they are when their heights change by less than this share of how deep the
+/// deepest node is, or after some moves: what is left is made up for when the step is committed.
+constexpr double feet_settled = 1e-5;
+constexpr int max_foot_moves = 8;
 /// Rounds without progress after which offenders are changed one at a time.
 constexpr int patience = 8;
 /// Penetration below this length [m] is round-off: a picometre.
@@ -65,8 +69,16 @@ PlaneContact::PlaneContact(ContactUnknowns unknowns, ContactMode mode, const Pla
       frames_(finite && !obstacle.is_plane() ? unknowns_.nodes.size() : 0) {
   const std::size_t nodes = unknowns_.nodes.size();
   const auto zero = Eigen::VectorXd::Zero(Eigen::Index(unknowns_.unknowns.size()));
-  committed_ = {start, std::vector<NodeStatus>(nodes, NodeStatus::open),
-                std::vector<std::array<double, 3>>(nodes, {0.0, 0.0, 0.0}), zero, zero};
+  committed_ = {start,
+                std::vector<NodeStatus>(nodes, NodeStatus::open),
+                std::vector<std::array<double, 3>>(nodes, {0.0, 0.0, 0.0}),
+                zero,
+                zero,
+                {}};
+  for (std::size_t node = 0; has_feet() && node < nodes; ++node) {
+    const Eigen::Vector2d foot = over_obstacle(unknowns_.nodes[node].position, start);
+    committed_.feet.push_back({foot.x(), foot.y()});
+  }
   trial_ = committed_;
 }
 
@@ -123,31 +135,62 @@ Eigen::VectorXd PlaneContact::in_plane_axes(const Eigen::VectorXd& values) const
   return result;
 }
 
+Eigen::Vector2d PlaneContact::over_obstacle(const meshes::Vector3& place,
+                                            const PlanePose& pose) const {
+  const meshes::Vector3 from_top(place.x() - pose.shift, place.y(), 0.0);
+  return (pose.turn().inverse() * from_top).head<2>();
+}
+
+Eigen::Vector2d PlaneContact::foot(std::size_t node, double time) const {
+  if (!has_feet()) return Eigen::Vector2d::Zero();
+  return (1.0 - time) * Eigen::Vector2d(committed_.feet[node].data()) +
+         time * Eigen::Vector2d(trial_.feet[node].data());
+}
+
+double PlaneContact::move_feet(const Eigen::VectorXd& displacement) {
+  const PlanePose &from = committed_.pose, &to = trial_.pose;
+  double largest = 0.0;
+  if (!has_feet() || (from.shift == to.shift && from.twist == to.twist)) return largest;
+  for (std::size_t node = 0; node < trial_.feet.size(); ++node) {
+    const meshes::Vector3 rest = unknowns_.nodes[node].position, none = meshes::Vector3::Zero();
+    // The plane's motion counts as small as displacements, its turn too.
+    const meshes::Vector3 way = carried(node, none, from) - carried(node, none, to),
+                          own = of_node(node, displacement) -
+                                of_node(node, committed_.displacement) + way;
+    const double share = meshes::share_passed(own.x(), own.y(), way.x(), way.y());
+    const double before = reach(node);
+    Eigen::Vector2d::Map(trial_.feet[node].data()) =
+        foot(node, 0.0) + share * (over_obstacle(rest, to) - over_obstacle(rest, from));
+    largest = std::max(largest, std::abs(reach(node) - before));
+  }
+  return largest;
+}
+
 PlaneContact::GapAndNormal PlaneContact::gap_and_normal(const meshes::Vector3& rest,
                                                         const meshes::Vector3& displacement,
-                                                        const PlanePose& pose) const {
+                                                        const PlanePose& pose,
+                                                        const Eigen::Vector2d& foot) const {
   const meshes::Vector3 out(0.0, 0.0, -1.0);
   const double over = pose.height - rest.z() - displacement.z();
   if (obstacle_.is_plane()) return {over, out};
-  const auto turn = pose.turn();
-  const auto in_obstacle_axes = [&](const meshes::Vector3& place) -> meshes::Vector3 {
-    return turn.inverse() * meshes::Vector3(place.x() - pose.shift, place.y(), over);
-  };
-  if (!curved()) return {over - height(obstacle_, in_obstacle_axes(rest)), out};
-  const auto found = hit(obstacle_, in_obstacle_axes(rest + displacement));
-  return {found.gap, turn * meshes::Vector3(found.normal[0], found.normal[1], -found.normal[2])};
+  if (has_feet()) return {over - height(obstacle_, {foot.x(), foot.y(), 0.0}), out};
+  meshes::Vector3 at;
+  at << over_obstacle(rest + displacement, pose), over;
+  const auto found = hit(obstacle_, at);
+  return {found.gap,
+          pose.turn() * meshes::Vector3(found.normal[0], found.normal[1], -found.normal[2])};
 }
 
 double PlaneContact::reach(std::size_t node) const {
   if (curved()) return frames_[node].reach;
-  return gap_and_normal(node, meshes::Vector3::Zero(), trial_.pose).gap;
+  return gap_and_normal(node, meshes::Vector3::Zero(), trial_.pose, 1.0).gap;
 }
 
 double PlaneContact::linearise(const Eigen::VectorXd& displacement, const PlanePose& pose) {
   double largest = 0.0;
   for (std::size_t node = 0; node < frames_.size(); ++node) {
     const meshes::Vector3 at = of_node(node, displacement);
-    const GapAndNormal now = gap_and_normal(node, at, pose);
+    const GapAndNormal now = gap_and_normal(node, at, pose, 1.0);
     // The shortest turn: in a plane of symmetry, which holds the normal, it is about the axis
     // across.
     Frame& frame = frames_[node];
@@ -211,7 +254,7 @@ meshes::Vector3 PlaneContact::carried_back(std::size_t node, const meshes::Vecto
 meshes::Vector3 PlaneContact::held_at(std::size_t node) const {
   const meshes::Vector3 anchor(trial_.anchors[node].data());
   meshes::Vector3 place = axes(node) * carried(node, anchor, trial_.pose);
-  if (obstacle_.is_plane()) place.z() = reach(node);
+  if (!curved()) place.z() = reach(node);
   return place;
 }
 
@@ -291,13 +334,16 @@ meshes::Vector3 PlaneContact::on_the_way(std::size_t node, const Eigen::VectorXd
 
 double PlaneContact::first_touch(std::size_t node, const Eigen::VectorXd& end,
                                  double gap_at_end) const {
-  double from = 0.0, before = std::max(0.0, gap(node, committed_.displacement, committed_.pose));
+  double from = 0.0,
+         before = std::max(
+             0.0, gap_and_normal(node, of_node(node, committed_.displacement), committed_.pose, 0.0)
+                      .gap);
   const auto touch = [&](double to, double after) {
     return before > after ? from + (to - from) * before / (before - after) : to;
   };
   for (const double time : foreknown_.times) {
     const double after =
-        gap_and_normal(node, on_the_way(node, end, time), pose_on_the_way(time)).gap;
+        gap_and_normal(node, on_the_way(node, end, time), pose_on_the_way(time), time).gap;
     if (after < 0.0) return touch(time, after);
     from = time, before = after;
   }
@@ -308,7 +354,7 @@ void PlaneContact::anchor(std::size_t node, const Eigen::VectorXd& end, double t
   const PlanePose pose = pose_on_the_way(time);
   meshes::Vector3 place = on_the_way(node, end, time);
   // On the obstacle: of what is curved, the way there is not quite straight.
-  const GapAndNormal left = gap_and_normal(node, place, pose);
+  const GapAndNormal left = gap_and_normal(node, place, pose, time);
   place -= left.gap * left.normal;
   meshes::Vector3::Map(trial_.anchors[node].data()) = carried_back(node, place, pose);
 }
@@ -335,7 +381,7 @@ void PlaneContact::foresee(ForeknownStep step, const PlanePose& pose) {
   trial_.pose = pose;
   for (std::size_t node = 0; node < trial_.status.size(); ++node) {
     const SurfaceNode& at = unknowns_.nodes[node];
-    const double left = gap(node, foreknown_.end, pose),
+    const double left = gap_and_normal(node, of_node(node, foreknown_.end), pose, 1.0).gap,
                  width = at.area > 0.0 ? at.area / at.extent : 0.0;
     if (!is_open(node) || left > foreseen_touch * width) continue;
     trial_.status[node] = touching();
@@ -346,7 +392,8 @@ void PlaneContact::foresee(ForeknownStep step, const PlanePose& pose) {
 void PlaneContact::touch_at_start() {
   for (std::size_t node = 0; node < trial_.status.size(); ++node)
     if (trial_.status[node] == NodeStatus::open &&
-        gap(node, committed_.displacement, committed_.pose) <= gap_noise) {
+        gap_and_normal(node, of_node(node, committed_.displacement), committed_.pose, 0.0).gap <=
+            gap_noise) {
       trial_.status[node] = touching();
       anchor(node, committed_.displacement, 0.0);
     }
@@ -417,11 +464,40 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
   ContactEffort effort;
   trial_.pose = pose;
   releases_.assign(trial_.status.size(), 0);
+  move_feet(expected());
   touch_at_start();
+  for (int move = 0; move < max_foot_moves; ++move) {
+    settle(solver, effort);
+    if (move_feet(trial_.displacement) <= feet_settled * deepest()) break;
+  }
+  return effort;
+}
+
+Eigen::VectorXd PlaneContact::expected() const {
+  Eigen::VectorXd result = committed_.displacement;
+  const meshes::Vector3 none = meshes::Vector3::Zero();
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    if (trial_.status[node] == NodeStatus::stick)
+      set_node(node,
+               of_node(node, result) + carried(node, none, trial_.pose) -
+                   carried(node, none, committed_.pose),
+               result);
+  return result;
+}
+
+double PlaneContact::deepest() const {
+  double depth = gap_noise / feet_settled;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    depth = std::max(depth, -reach(node));
+  return depth;
+}
+
+void PlaneContact::settle(ContactSolver& solver, ContactEffort& effort) {
+  const int first = effort.rounds;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int stalled = 0;
   AndersonMixing mixing;
-  while (effort.rounds < max_rounds) {
+  while (effort.rounds - first < max_rounds) {
     const ConstrainedSolution solution = solve(solver);
     ++effort.rounds;
     effort.cg_iterations += solution.cg_iterations;
@@ -430,7 +506,8 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
     if (mode_ == ContactMode::coulomb) {
       const std::vector<int> sliding = sliding_unknowns();
       const Eigen::VectorXd before = trial_.reaction(sliding);
-      change = update_friction(solution, effort.rounds <= friction_patience, solver.noise());
+      change =
+          update_friction(solution, effort.rounds - first <= friction_patience, solver.noise());
       if (wrong.empty() && std::isfinite(change))
         trial_.reaction(sliding) = mixing.next(before, trial_.reaction(sliding));
       else
@@ -440,7 +517,7 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
       trial_.displacement = in_plane_axes(solution.displacement);
       trial_.reaction = solution.reaction;
       if (mode_ == ContactMode::coulomb) stick_where_friction_holds(solution);
-      return effort;
+      return;
     }
     stalled = wrong.size() < fewest ? 0 : stalled + 1;
     fewest = std::min(fewest, wrong.size());

@@ -45,10 +45,11 @@ struct ContactEffort {
 
 /// Finds which nodes touch. The gap of a node is height - (reference z + u_z): small and large
 /// strain differ in the solver behind, not here, because the plane is flat and the gap is linear
-/// in u. Another obstacle at small strain lowers the gap by its height at the reference place. At
-/// large strain the gap is the distance of the deformed place from the obstacle, linearised where
-/// `linearise` says: unknowns then count along axes of the node's own, the third into the obstacle,
-/// and what is said of z holds for that one. A push, never a pull.
+/// in u. Another obstacle at small strain lowers the gap by its height at the foot of the node
+/// (meshes::share_passed); feet are held while the contact state is sought, and then moved on until
+/// they stay where they are. At large strain the gap is the distance of the deformed place from the
+/// obstacle, linearised where `linearise` says: unknowns then count along axes of the node's own,
+/// the third into the obstacle, and what is said of z holds for that one. A push, never a pull.
 ///
 /// In a round every node is on the plane (its z held) or open. An open node that penetrates is put
 /// on the plane and one that is pulled comes off, all at once, until nothing changes (Hintermüller,
@@ -128,11 +129,13 @@ class PlaneContact {
   std::vector<char> held() const;
   /// Forces of the plane on all contact unknowns, along the axes of the nodes [N].
   const Eigen::VectorXd& reactions() const { return trial_.reaction; }
-  double gap(std::size_t node) const { return gap(node, trial_.displacement, trial_.pose); }
-  /// Of any place of the tip at a displacement, plane axes [m].
+  double gap(std::size_t node) const {
+    return gap_and_normal(node, of_node(node, trial_.displacement), trial_.pose, 1.0).gap;
+  }
+  /// Of any place of the tip at a displacement, plane axes [m]; its foot is where it is at rest.
   double gap(const meshes::Vector3& rest, const meshes::Vector3& displacement,
              const PlanePose& pose) const {
-    return gap_and_normal(rest, displacement, pose).gap;
+    return gap_and_normal(rest, displacement, pose, over_obstacle(rest, pose)).gap;
   }
 
   /// What a checkpoint needs to restore the committed state.
@@ -142,6 +145,8 @@ class PlaneContact {
     std::vector<std::array<double, 3>> anchors;  ///< displacement, were the plane not moved [m]
     Eigen::VectorXd displacement;                ///< of the contact unknowns, plane axes [m]
     Eigen::VectorXd reaction;                    ///< on them, along the axes of the nodes [N]
+    /// Of the nodes, along x and y of the obstacle; none where no gap is told by them [m].
+    std::vector<std::array<double, 2>> feet;
   };
   const State& committed() const { return committed_; }
   void restore(State state);
@@ -153,14 +158,23 @@ class PlaneContact {
     meshes::Vector3 normal;
   };
   GapAndNormal gap_and_normal(const meshes::Vector3& rest, const meshes::Vector3& displacement,
-                              const PlanePose& pose) const;
+                              const PlanePose& pose, const Eigen::Vector2d& foot) const;
+  /// Of a node, at a time of the step, 0 ... 1.
   GapAndNormal gap_and_normal(std::size_t node, const meshes::Vector3& displacement,
-                              const PlanePose& pose) const {
-    return gap_and_normal(unknowns_.nodes[node].position, displacement, pose);
+                              const PlanePose& pose, double time) const {
+    return gap_and_normal(unknowns_.nodes[node].position, displacement, pose, foot(node, time));
   }
-  double gap(std::size_t node, const Eigen::VectorXd& displacement, const PlanePose& pose) const {
-    return gap_and_normal(node, of_node(node, displacement), pose).gap;
-  }
+  bool has_feet() const { return !finite_ && !obstacle_.is_plane(); }
+  /// A place along x and y of the obstacle [m].
+  Eigen::Vector2d over_obstacle(const meshes::Vector3& place, const PlanePose& pose) const;
+  /// Of a node, at a time of the step, 0 ... 1 [m].
+  Eigen::Vector2d foot(std::size_t node, double time) const;
+  /// To where they are when the step ends at `displacement`; by how much that changes heights [m].
+  double move_feet(const Eigen::VectorXd& displacement);
+  /// Of the contact unknowns at the end of the step: what sticks goes along, the rest stays [m].
+  Eigen::VectorXd expected() const;
+  /// How deep the obstacle would go in, were the tip at rest [m].
+  double deepest() const;
   /// The third component along the axes of a node at which it touches [m].
   double reach(std::size_t node) const;
   /// The linearised gap at a displacement along the axes of the nodes.
@@ -196,6 +210,8 @@ class PlaneContact {
   NodeStatus touching() const {
     return mode_ == meshes::ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
   }
+  /// The contact state for the feet as they are.
+  void settle(ContactSolver& solver, ContactEffort& effort);
   PlanePose pose_on_the_way(double time) const;
   /// Displacement of a node at a time of the step that ends at `end` [m].
   meshes::Vector3 on_the_way(std::size_t node, const Eigen::VectorXd& end, double time) const;

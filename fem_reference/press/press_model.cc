@@ -76,7 +76,8 @@ void TipPress<dim>::prepare() {
   solver_kind_ = choose_solver(job_, double(body_->unknowns()));
   outer_nodes_ = outer_nodes(*body_);
   const double bulge = job_.strain == Strain::finite ? finite_bulge : linear_bulge;
-  const bool curved = job_.strain == Strain::finite && !job_.protocol.obstacle.is_plane();
+  const bool curved = !job_.protocol.obstacle.is_plane() &&
+                      (job_.strain == Strain::finite || !job_.protocol.is_straight());
   ContactUnknowns candidates = contact_unknowns(
       within_reach(outer_nodes_, job_.protocol, touch_, bulge * job_.protocol.samples.back()),
       curved || job_.protocol.contact != ContactMode::frictionless);
@@ -283,13 +284,10 @@ void TipPress<dim>::check_other_nodes(double place) const {
   const meshes::PressPose at = course_.at(place);
   const double deep = -1e-6 * job_.geometry.tip_radius;
   const std::vector<meshes::Vector3> moved = displacements(outer_nodes_);
-  // What is held goes with the obstacle, also where at small strain its slope passes by.
-  std::set<long> held;
-  for (std::size_t i = 0; i < contact_->status().size(); ++i)
-    if (contact_->status()[i] != NodeStatus::open)
-      held.insert(contact_->unknowns().nodes[i].unknown[2]);
+  std::set<long> candidates;
+  for (const SurfaceNode& node : contact_->unknowns().nodes) candidates.insert(node.unknown[2]);
   for (std::size_t i = 0; i < moved.size(); ++i)
-    if (!held.contains(outer_nodes_[i].unknown[2]) &&
+    if (!candidates.contains(outer_nodes_[i].unknown[2]) &&
         contact_->gap(outer_nodes_[i].position, moved[i], plane) < deep)
       throw meshes::NotConverged(
           "the rubber rises through the " + std::string(name(job_.protocol.obstacle.shape)) +

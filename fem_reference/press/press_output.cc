@@ -226,6 +226,7 @@ void TipPress<dim>::save(const std::filesystem::path& folder) const {
                   {"meshes_before", way_.meshes()},
                   {"status", status},
                   {"anchors", state.anchors},
+                  {"feet", state.feet},
                   {"displacement", to_json(state.displacement)},
                   {"reaction", to_json(state.reaction)}};
   meshes::write_atomically(folder / "contact.json", [&](std::ostream& out) { out << json; });
@@ -290,6 +291,7 @@ void TipPress<dim>::load(const std::filesystem::path& folder) {
   for (const int node : json.at("status").get<std::vector<int>>())
     state.status.push_back(NodeStatus(node));
   state.anchors = json.at("anchors").get<std::vector<std::array<double, 3>>>();
+  state.feet = json.at("feet").get<std::vector<std::array<double, 2>>>();
   state.displacement = vector_from(json.at("displacement"));
   state.reaction = vector_from(json.at("reaction"));
   if (state.status.size() != contact_->unknowns().nodes.size() ||

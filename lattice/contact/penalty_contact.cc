@@ -68,7 +68,15 @@ PenaltyContact::PenaltyContact(const LatticeModel& model, const Plane& plane, co
   near_particles_.reserve(shape_->particles.size());
   held_.reserve(shape_->particles.size());
   const State rest(model);
-  broad_phase(arrays(rest, plane, 0.0, {}), shape_->groups.size());
+  const kernel::ContactArrays start = arrays(rest, plane, 0.0, {});
+  stand(start);
+  broad_phase(start, shape_->groups.size());
+}
+
+void PenaltyContact::stand(const kernel::ContactArrays& arrays) {
+  if (arrays.obstacle.flat || arrays.exact) return;
+  for (std::uint32_t group = 0; group < shape_->groups.size(); ++group)
+    kernels_->stand(arrays, group);
 }
 
 kernel::ContactArrays PenaltyContact::arrays(const State& state, const Plane& now, double step,
@@ -330,6 +338,7 @@ void PenaltyContact::start_at(const State& state, const Plane& plane, const Pose
   constexpr double all = -1e300;  // a gap that no point is below
   plane_ = plane;
   const kernel::ContactArrays here = arrays(state, plane, 0.0, rod);
+  stand(here);
   for (std::uint32_t group = 0; group < shape_->groups.size(); ++group) {
     const double least = kernels_->look(here, all, group);
     skip_count_[group] = 0;

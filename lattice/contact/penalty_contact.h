@@ -45,8 +45,8 @@ namespace fingertip::lattice::inline contact {
 /// Euler with block-diagonal inertia stable. A tie that slides steadily feels none of it, its force
 /// is mu n.
 ///
-/// Against an obstacle that is no plane g is that of statics/static_contact.h, and so is its
-/// gradient, along which the ties push.
+/// Against an obstacle that is no plane g is that of statics/static_contact.h, told at small strain
+/// at points' feet, and so is its gradient, along which the ties push.
 ///
 /// Points of a cell hang on the same eight particles and are treated together, eight at a time
 /// (contact_kernel.h); then every particle collects what the groups of its cells do to it, always
@@ -96,6 +96,7 @@ class PenaltyContact {
 
  private:
   kernel::ContactArrays arrays(const State& state, const Plane& now, double step, const Pose& rod);
+  void stand(const kernel::ContactArrays& arrays);
   void broad_phase(const kernel::ContactArrays& arrays, std::size_t looks);
   void enter(std::uint32_t group);
   void forget_near();

@@ -28,7 +28,10 @@ struct alignas(64) GroupLoads {
 struct ContactMemory {
   Lanes place[3];   ///< at the end of the last step looked at [m]
   Lanes anchor[3];  ///< where the point is held [m]
-  Lanes gap;        ///< at the end of the last step looked at [m]
+  /// Of an obstacle at small strain (statics/static_contact.h), along its t1 and t2 [m]: the point
+  /// at rest then, and its foot.
+  Lanes rest[2], foot[2];
+  Lanes gap;  ///< at the end of the last step looked at [m]
   Lanes anchored;
   Lanes sliding;   ///< slipped in the last step (coulomb)
   Lanes push;      ///< along the normal, in the last apply() [N]
@@ -65,7 +68,7 @@ struct ContactArrays {
   double friction;        ///< Coulomb's coefficient
   TieLaw law;             ///< of all ties
   /// What gaps are told from: a plane, or else an obstacle, by the distance from it (`exact`) or
-  /// the distance from the plane less its height at the place of rest (statics/static_contact.h).
+  /// the distance from the plane less its height at the point's foot (statics/static_contact.h).
   meshes::ObstacleForm obstacle;
   bool exact;
   double tangent[2][3];  ///< t1 and t2 of the obstacle, in the plane's own axes
@@ -106,6 +109,8 @@ struct ContactKernels {
   /// 0 [m/s].
   double (*closing)(const double* const* velocity, const double* normal,
                     const std::uint32_t* particles, std::size_t count);
+  /// Puts the feet of a group where its points are at rest; the first of all.
+  void (*stand)(const ContactArrays&, std::size_t group);
   /// The smallest gap of a group at the end of the step. Notes where its points will be unless that
   /// is below `margin`.
   double (*look)(const ContactArrays&, double margin, std::size_t group);

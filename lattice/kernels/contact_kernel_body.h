@@ -120,23 +120,55 @@ struct ContactBody : Packs<Pack> {
             t[2] * v.x + t[5] * v.y + t[8] * v.z};
   }
 
+  [[gnu::always_inline]] static bool has_feet(const ContactArrays& a) {
+    return !a.obstacle.flat && !a.exact;
+  }
+  /// Along t1 or t2 of the obstacle.
+  [[gnu::always_inline]] static Pack along(const ContactArrays& a, std::size_t axis,
+                                           const Vector& v) {
+    return dot(broadcast(a.tangent[axis]), v);
+  }
+  static void stand(const ContactArrays& a, std::size_t number) {
+    for (std::size_t lane = 0; lane < lanes; lane += width) {
+      const Vector rest = in_frame(a.carried, load(a.groups[number].rest, lane));
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        store(a.memory[number].rest[axis], lane, along(a, axis, rest));
+        store(a.memory[number].foot[axis], lane, along(a, axis, rest));
+      }
+    }
+  }
+  /// Moves feet on to where they are when the points have come to `place`, before that is noted.
+  [[gnu::always_inline]] static void move_feet(const ContactArrays& a, const ContactGroup& group,
+                                               const Vector& place, std::size_t lane,
+                                               ContactMemory& memory) {
+    if (!has_feet(a)) return;
+    const Vector rest = in_frame(a.carried, load(group.rest, lane)),
+                 own = place - load(memory.place, lane);
+    const Pack x = along(a, 0, rest), y = along(a, 1, rest);
+    const Pack rx = x - load(memory.rest[0], lane), ry = y - load(memory.rest[1], lane);
+    const Pack share = meshes::share_passed(along(a, 0, own), along(a, 1, own), rx, ry);
+    store(memory.rest[0], lane, x);
+    store(memory.rest[1], lane, y);
+    store(memory.foot[0], lane, load(memory.foot[0], lane) + share * rx);
+    store(memory.foot[1], lane, load(memory.foot[1], lane) + share * ry);
+  }
+
   /// The gap of points at `place`, and its gradient.
   struct GapAndNormal {
     Pack gap;
     Vector normal;
   };
   [[gnu::always_inline]] static GapAndNormal gap_and_normal(const ContactArrays& a,
-                                                            const ContactGroup& group,
+                                                            const ContactMemory& memory,
                                                             const Vector& place, std::size_t lane) {
     const Vector n = broadcast(a.normal);
     const Pack over = dot(n, place);
     if (a.obstacle.flat) return {over, n};
+    if (has_feet(a))
+      return {over - meshes::obstacle_height(a.obstacle, load(memory.foot[0], lane),
+                                             load(memory.foot[1], lane)),
+              n};
     const Vector t1 = broadcast(a.tangent[0]), t2 = broadcast(a.tangent[1]);
-    if (!a.exact) {
-      const Vector rest = in_frame(a.carried, load(group.rest, lane));
-      const Pack height = meshes::obstacle_height(a.obstacle, dot(t1, rest), dot(t2, rest));
-      return {over - height, n};
-    }
     const auto hit = meshes::obstacle_hit(a.obstacle, dot(t1, place), dot(t2, place), over);
     return {hit.gap, hit.normal[0] * t1 + hit.normal[1] * t2 + hit.normal[2] * n};
   }
@@ -149,7 +181,8 @@ struct ContactBody : Packs<Pack> {
     double least = 1e300;
     for (std::size_t part = 0; part < parts; ++part) {
       place[part] = places(group, then, a.then, part * width);
-      gap[part] = gap_and_normal(a, group, place[part], part * width).gap;
+      move_feet(a, group, place[part], part * width, a.memory[number]);
+      gap[part] = gap_and_normal(a, a.memory[number], place[part], part * width).gap;
       const double smallest = std::experimental::hmin(gap[part]);
       least = smallest < least ? smallest : least;
     }
@@ -213,14 +246,14 @@ struct ContactBody : Packs<Pack> {
     // Points not yet there are anchored where they will be.
     const Mask anchored = load(memory.anchored, lane) != 0.0;
     const Mask slips = anchored && depth > 0.0 && kept.share < 1.0;
-    const Vector dragged = place + dot(stretch, now.normal) * now.normal + kept.tangential;
+    const Vector dragged = place + depth * now.normal + kept.tangential;
     store(memory.anchor, lane, choose(slips, dragged, anchor));
     store(memory.sliding, lane, choose(slips, Pack(1.0), Pack(0.0)));
   }
 
   /// Anchors what crossed the plane in this step, linearly interpolated, and lets go what left it.
-  [[gnu::always_inline]] static void look_at(const ContactArrays& a, const ContactGroup& group,
-                                             const Vector& place, const Pack& gap, std::size_t lane,
+  [[gnu::always_inline]] static void look_at(const ContactArrays& a, const Vector& place,
+                                             const Pack& gap, std::size_t lane,
                                              ContactMemory& memory) {
     const Pack before = std::experimental::max(load(memory.gap, lane), Pack(0.0));
     const Mask was = load(memory.anchored, lane) != 0.0;
@@ -228,7 +261,7 @@ struct ContactBody : Packs<Pack> {
     const Pack fraction = choose(crosses, before / (before - gap), Pack(0.0));
     Vector crossing = (1.0 - fraction) * load(memory.place, lane) + fraction * place;
     if (a.exact) {  // not quite on a surface that is curved
-      const GapAndNormal left = gap_and_normal(a, group, crossing, lane);
+      const GapAndNormal left = gap_and_normal(a, memory, crossing, lane);
       crossing += -left.gap * left.normal;
     }
     store(memory.anchor, lane, choose(crosses, crossing, load(memory.anchor, lane)));
@@ -259,6 +292,9 @@ struct ContactBody : Packs<Pack> {
     const Vector nothing{0.0, 0.0, 0.0};
     result.elastic = load(memory.anchor, lane) - place;
     result.share = 1.0;
+    // An anchor says where a point is held across; how deep it is its foot says.
+    if (has_feet(a))
+      result.elastic = result.elastic - (dot(result.elastic, then.normal) + then.gap) * then.normal;
     if constexpr (grip == Grip::coulomb) {
       const Clipped kept = clip(result.elastic, then.normal, a.friction * push.length);
       result.share = kept.share;
@@ -312,11 +348,12 @@ struct ContactBody : Packs<Pack> {
     for (std::size_t lane = 0; lane < lanes; lane += width) {
       if constexpr (grip == Grip::coulomb) {
         const Vector place = places(group, now, a.now, lane);
-        return_mapping(a, place, gap_and_normal(a, group, place, lane), lane, memory);
+        return_mapping(a, place, gap_and_normal(a, memory, place, lane), lane, memory);
       }
       const Vector place = places(group, then, a.then, lane);
-      const GapAndNormal ahead = gap_and_normal(a, group, place, lane);
-      if constexpr (grip != Grip::frictionless) look_at(a, group, place, ahead.gap, lane, memory);
+      move_feet(a, group, place, lane, memory);
+      const GapAndNormal ahead = gap_and_normal(a, memory, place, lane);
+      if constexpr (grip != Grip::frictionless) look_at(a, place, ahead.gap, lane, memory);
       store(memory.place, lane, place);
       store(memory.gap, lane, ahead.gap);
       note(a, group, stretches<grip>(a, place, ahead, memory, lane), lane, memory, pulls, found);
@@ -364,7 +401,7 @@ struct ContactBody : Packs<Pack> {
     }
   }
 
-  static constexpr ContactKernels kernels{closing, look, apply, add_up};
+  static constexpr ContactKernels kernels{closing, stand, look, apply, add_up};
 };
 
 }  // namespace fingertip::lattice::inline kernels::kernel

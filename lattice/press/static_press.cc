@@ -197,14 +197,14 @@ VectorXd StaticPress::extrapolated(double place) const {
 bool StaticPress::step_to(double place, bool is_sample) {
   const double from = now_.contact.place();
   State next{now_.contact, extrapolated(place), now_.slopes};
-  next.contact.move_to(place);
-  next.contact.begin_step();
+  next.contact.begin_step(place, now_.displacement);
   const bool stick = setup_.protocol.contact == ContactMode::stick,
              holds = setup_.protocol.contact != ContactMode::frictionless;
   const double enough = is_sample ? tolerance_ : search_tolerance_;
-  double tolerance = holds ? search_tolerance_ : enough;
+  double tolerance = holds || next.contact.feet_move() ? search_tolerance_ : enough;
   bool converged = false;
   for (int round = 0; round < max_rounds && !converged; ++round) {
+    next.contact.move_feet(next.displacement);
     if (!solver_.solve(next.contact, next.displacement, tolerance)) return false;
     if (stick && slope_system_)
       slope_system_->respond(solver_, next.contact, next.displacement, next.slopes);

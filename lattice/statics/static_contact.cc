@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace fingertip::lattice::inline statics {
 
@@ -33,16 +34,54 @@ StaticContact::StaticContact(const LatticeBody& body, const PressPlane& plane,
       released_(body.outer.size(), 0),
       anchor_(body.outer.size(), Vector3::Zero()),
       limit_(body.outer.size(), law.mode == ContactMode::stick ? endless : 0.0),
-      anchor_normal_(body.outer.size(), plane.normal) {}
+      anchor_normal_(body.outer.size(), plane.normal) {
+  if (body.finite || plane.obstacle.is_plane()) return;
+  for (std::size_t i = 0; i < body.outer.size(); ++i) foot_.push_back(rest_over(i, place_));
+  first_foot_ = foot_;
+}
 
 Matrix3d StaticContact::turn(double place) const {
   return Eigen::AngleAxisd(plane_.twist(place), plane_.normal).toRotationMatrix();
 }
 
-void StaticContact::move_to(double place) {
-  place_ = place;
+void StaticContact::begin_step(double place, const VectorXd& displacement) {
+  released_.assign(released_.size(), 0);
+  move_feet(displacement);  // of the last step, by where it ended
+  from_ = std::exchange(place_, place);
   turn_ = turn(place);
   axes_ = turn_ * plane_.axes();
+  first_.clear();
+  if (!has_feet()) return;
+  first_foot_ = foot_;
+  const meshes::PressPose before = plane_.path.at(from_), now = pose();
+  if (before.lateral == now.lateral && before.twist == now.twist) return;
+  for (const EmbeddedPoint& outer : body_->outer) first_.push_back(position(outer, displacement));
+  move_feet(displacement);
+}
+
+Vector3 StaticContact::rest_over(std::size_t point, double place) const {
+  return (turn(place) * plane_.axes()).transpose() *
+         (body_->outer[point].rest - plane_.point(place));
+}
+
+/// The plane's motion counts as small as displacements, its turn too.
+void StaticContact::move_feet(const VectorXd& displacement) {
+  for (std::size_t i = 0; i < first_.size(); ++i) {
+    const EmbeddedPoint& outer = body_->outer[i];
+    const double turned = plane_.twist(place_) - plane_.twist(from_);
+    const Vector3 way = plane_.point(from_) - plane_.point(place_) -
+                        turned * plane_.normal.cross(outer.rest),
+                  own = position(outer, displacement) - first_[i] + way;
+    const double share = meshes::share_passed(own.dot(plane_.t1), own.dot(plane_.t2),
+                                              way.dot(plane_.t1), way.dot(plane_.t2));
+    foot_[i] = first_foot_[i] + share * (rest_over(i, place_) - rest_over(i, from_));
+  }
+}
+
+void StaticContact::update_friction(const VectorXd& displacement) {
+  for (std::size_t i = 0; rubs() && i < body_->outer.size(); ++i)
+    limit_[i] = law_.friction *
+                TiePush(body_->contact, std::max(-gap_and_normal(i, displacement).gap, 0.0)).length;
 }
 
 Vector3 StaticContact::turned(std::size_t point, const Vector3& fixed) const {
@@ -58,17 +97,17 @@ Vector3 StaticContact::turned_back(std::size_t point, const Vector3& at, double 
 
 StaticContact::Relative StaticContact::relative(std::size_t point, const VectorXd& displacement,
                                                 double place) const {
-  const EmbeddedPoint& outer = body_->outer[point];
-  const Vector3 top = plane_.point(place);
-  return {position(outer, displacement) - top, outer.rest - top,
-          place == place_ ? axes_ : Matrix3d(turn(place) * plane_.axes())};
+  const Vector3 now = position(body_->outer[point], displacement) - plane_.point(place);
+  const bool present = place == place_;
+  Relative result{now, Vector3::Zero(), present ? axes_ : Matrix3d(turn(place) * plane_.axes())};
+  if (has_feet()) result.foot = (present ? foot_ : first_foot_)[point];
+  return result;
 }
 
 StaticContact::GapAndNormal StaticContact::gap_and_normal(const Relative& point) const {
   const double over = point.now.dot(plane_.normal);
   if (plane_.obstacle.is_plane()) return {over, plane_.normal};
-  if (!body_->finite)
-    return {over - height(plane_.obstacle, point.axes.transpose() * point.rest), plane_.normal};
+  if (has_feet()) return {over - height(plane_.obstacle, point.foot), plane_.normal};
   const auto found = hit(plane_.obstacle, point.axes.transpose() * point.now);
   return {found.gap, point.axes * Vector3(found.normal)};
 }
@@ -85,8 +124,11 @@ bool StaticContact::touches(std::size_t point, const VectorXd& displacement) con
 }
 
 Vector3 StaticContact::stretch(std::size_t point, const VectorXd& displacement) const {
-  return plane_.point(place_) + turned(point, anchor_[point]) -
-         position(body_->outer[point], displacement);
+  const Vector3 pull = plane_.point(place_) + turned(point, anchor_[point]) -
+                       position(body_->outer[point], displacement);
+  if (!has_feet()) return pull;
+  const GapAndNormal now = gap_and_normal(point, displacement);
+  return pull - (pull.dot(now.normal) + now.gap) * now.normal;
 }
 
 StaticContact::Hold StaticContact::hold(std::size_t point, const Vector3& stretch,
@@ -182,7 +224,7 @@ std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, doub
     const double share = touch.share();
     const Matrix3d turned_axes = turn(from + share * (place_ - from)) * plane_.axes();
     const Relative there{(1.0 - share) * first.now + share * last.now,
-                         (1.0 - share) * first.rest + share * last.rest, turned_axes};
+                         (1.0 - share) * first.foot + share * last.foot, turned_axes};
     const GapAndNormal left = gap_and_normal(there);
     touch.anchor = there.now - left.gap * left.normal;
     touch.projection =
@@ -203,15 +245,9 @@ int StaticContact::anchor_touching(const VectorXd& start, double from, const Vec
     if (body_->finite)
       anchor_normal_[i] =
           turned.transpose() *
-          gap_and_normal({touch.anchor, touch.anchor, turned * plane_.axes()}).normal;
+          gap_and_normal({touch.anchor, Vector3::Zero(), turned * plane_.axes()}).normal;
   }
   return int(touches.size());
-}
-
-void StaticContact::update_friction(const VectorXd& displacement) {
-  for (std::size_t i = 0; rubs() && i < body_->outer.size(); ++i)
-    limit_[i] = law_.friction *
-                TiePush(body_->contact, std::max(-gap_and_normal(i, displacement).gap, 0.0)).length;
 }
 
 void StaticContact::end_step(const VectorXd& displacement) {

@@ -51,8 +51,11 @@ struct FirstTouch {
 ///                 follows by what friction does not hold (end_step). A step is taken to be
 ///                 straight: friction points against its slip.
 /// Of a plane g = (x - plane point)·n, x = rest + u, also at small strain. Of another obstacle at
-/// small strain it is less by the obstacle's height at the place of rest, with the plane's normal;
-/// at finite strain the distance of x from the obstacle, with its normal there.
+/// finite strain it is the distance of x from the obstacle, with its normal there. At small strain
+/// it is less than that of the plane by the obstacle's height at the point's foot
+/// (meshes::share_passed), with the plane's normal, and along it |x - anchor| counts as -g: an
+/// anchor says where a point is held across alone. While equilibrium is sought feet stand still
+/// (move_feet).
 ///
 /// The plane's twist turns the obstacle about n, and anchors: at small strain these by a rotation
 /// as small as displacements, about the axis through the shape's origin.
@@ -61,8 +64,9 @@ class StaticContact {
   /// Keeps a reference to `body`.
   StaticContact(const LatticeBody& body, const PressPlane& plane, const ContactLaw& law);
 
-  /// Moves the plane, and the anchors with it, to a place of its path [m].
-  void move_to(double place);
+  /// Begins a step in which the plane moves, and the anchors with it, to a place of its path [m];
+  /// the body is at `displacement` now.
+  void begin_step(double place, const Eigen::VectorXd& displacement);
   double place() const { return place_; }
   meshes::PressPose pose() const { return plane_.path.at(place_); }
   const PressPlane& plane() const { return plane_; }
@@ -85,11 +89,14 @@ class StaticContact {
   int release_pulled(const Eigen::VectorXd& displacement);
   /// Whether a point sticks.
   bool anchored(std::size_t point) const { return anchored_[point] != 0; }
-  void begin_step() { released_.assign(released_.size(), 0); }
   /// Whether Coulomb's law holds.
   bool rubs() const { return law_.mode == meshes::ContactMode::coulomb; }
   /// Coulomb: friction gives way from now on as the pushes have it.
   void update_friction(const Eigen::VectorXd& displacement);
+  /// Whether feet move in this step.
+  bool feet_move() const { return !first_.empty(); }
+  /// Puts them where the step ends, were it to end at `displacement`.
+  void move_feet(const Eigen::VectorXd& displacement);
   /// Coulomb: anchors of what slides follow; what does not touch has none.
   void end_step(const Eigen::VectorXd& displacement);
   /// Whether a point slides, or is free of friction.
@@ -113,12 +120,16 @@ class StaticContact {
   std::vector<TiedPoint> points(const Eigen::VectorXd& displacement) const;
 
  private:
-  /// Where a point is [m]: from the plane's point, itself and at rest; and the obstacle's axes
-  /// then.
+  /// Where a point is [m]: from the plane's point, and its foot, if it has one, in the obstacle's
+  /// axes; and these then.
   struct Relative {
-    meshes::Vector3 now, rest;
+    meshes::Vector3 now, foot;
     Eigen::Matrix3d axes;
   };
+  /// Whether gaps are told by feet.
+  bool has_feet() const { return !foot_.empty(); }
+  /// A point at rest in the obstacle's axes, at a place of its path [m].
+  meshes::Vector3 rest_over(std::size_t point, double place) const;
   /// Of the plane, at a place of its path.
   Eigen::Matrix3d turn(double place) const;
   /// Its gap [m] and the gradient of that.
@@ -156,12 +167,15 @@ class StaticContact {
   PressPlane plane_;
   Eigen::Matrix3d axes_;  ///< of the obstacle, as columns
   ContactLaw law_;
-  double place_ = 0.0;                                  ///< of the plane on its path [m]
+  double place_ = 0.0, from_ = 0.0;  ///< of the plane on its path, now and as the step began [m]
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();  ///< the plane's, there
   std::vector<std::uint8_t> anchored_, released_;
   std::vector<meshes::Vector3> anchor_;         ///< fixed to the plane, from plane_.point [m]
   std::vector<double> limit_;                   ///< tie's length across that friction holds [m]
   std::vector<meshes::Vector3> anchor_normal_;  ///< of the obstacle there, fixed to the plane
+  /// Of points that have feet [m]: these, in the obstacle's axes, now and as the step began; and
+  /// places then, from the origin. Where the step leaves feet alone there are no places.
+  std::vector<meshes::Vector3> foot_, first_foot_, first_;
 };
 
 }  // namespace fingertip::lattice::inline statics

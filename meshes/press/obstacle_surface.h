@@ -75,4 +75,17 @@ T obstacle_height(const ObstacleForm& form, const T& x, const T& y) {
   return choose(root * across < T(form.radius), round, (root - 1.0) * form.radius - across);
 }
 
+/// At small strain a gap is told at a point's foot: the place of the obstacle that is opposite to
+/// the point at rest, for displacements are small. Where the obstacle moves along its plane they
+/// are not: what sticks goes along with it, and must stay opposite to the same place, or the
+/// obstacle would rise and sink below it. So a foot moves by the share, 0 to 1, of the way
+/// (rx, ry) of the point at rest over the obstacle, that the point itself makes along it, which
+/// goes by (x, y): none of it where it sticks, all where the tip stays where it was.
+template <class T>
+[[gnu::always_inline]] inline T share_passed(const T& x, const T& y, const T& rx, const T& ry) {
+  const T square = rx * rx + ry * ry, along = x * rx + y * ry;
+  const T part = choose(along < square, along, square);
+  return choose(part > T(0.0), part, T(0.0)) / choose(square > T(0.0), square, T(1.0));
+}
+
 }  // namespace fingertip::meshes::inline press

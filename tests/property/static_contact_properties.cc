@@ -45,6 +45,10 @@ struct Contact {
     contact = std::make_unique<StaticContact>(specimen.body, plane, mode);
   }
 
+  /// From the tip at rest, whose feet are where its points are.
+  void begin_step(double place) {
+    contact->begin_step(place, VectorXd::Zero(specimen.body.unknowns()));
+  }
   double gap(const EmbeddedPoint& point, const VectorXd& u) const {
     const Vector3 top = plane.point(contact->place()), from = position(point, u) - top;
     if (plane.obstacle.is_plane()) return from.dot(plane.normal);
@@ -123,7 +127,7 @@ bool frictionless_contact_only_pushes(Against against) {
   return rc::check("frictionless contact pushes along the normal, by its energy", [=] {
     Contact c(meshes::ContactMode::frictionless, against);
     const VectorXd u = random_displacement(c.specimen);
-    c.contact->move_to(c.depth);
+    c.begin_step(c.depth);
     RC_PRE(away_from_kinks(c, u));
     double work = 0.0;
     for (std::size_t i = 0; i < c.specimen.body.outer.size(); ++i) {
@@ -140,7 +144,7 @@ bool frictionless_contact_only_pushes(Against against) {
     }
     RC_ASSERT(std::abs(c.contact->energy(u) - work) <= 1e-12 * work);
     check_derivatives(c, u);
-    c.contact->move_to(-20.0 * c.specimen.geometry.tip_radius);
+    c.begin_step(-20.0 * c.specimen.geometry.tip_radius);
     RC_ASSERT(c.contact->energy(u) == 0.0);
     RC_ASSERT(c.forces(u).isZero(0.0));
   });
@@ -151,13 +155,13 @@ bool sticking_contact_holds_on_any_obstacle() {
     Contact c(meshes::ContactMode::stick, Against::obstacle);
     const VectorXd rest = VectorXd::Zero(c.specimen.body.unknowns());
     const VectorXd u = random_displacement(c.specimen);
-    c.contact->move_to(c.depth);
+    c.begin_step(c.depth);
     RC_PRE(away_from_kinks(c, u));
     c.contact->anchor_touching(rest, 0.0, u);
     for (std::size_t i = 0; i < c.specimen.body.outer.size(); ++i)
       RC_ASSERT(c.contact->anchored(i) == (c.gap(c.specimen.body.outer[i], u) < 0.0));
     check_derivatives(c, u);
-    c.contact->begin_step();
+    c.begin_step(c.depth);
     c.contact->release_pulled(u);
     for (std::size_t i = 0; i < c.specimen.body.outer.size(); ++i)
       RC_ASSERT(c.contact->anchored_push(i, u) >= -2e-12 * c.specimen.body.outer[i].stiffness);
@@ -169,7 +173,7 @@ bool sticking_contact_holds_what_it_touched() {
     Contact c(meshes::ContactMode::stick);
     const VectorXd rest = VectorXd::Zero(c.specimen.body.unknowns());
     const VectorXd u = random_displacement(c.specimen);
-    c.contact->move_to(c.depth);
+    c.begin_step(c.depth);
     RC_PRE(away_from_kinks(c, u));
     const int anchored = c.contact->anchor_touching(rest, 0.0, u);
     int crossed = 0;
@@ -194,13 +198,11 @@ bool sticking_contact_holds_what_it_touched() {
     RC_ASSERT(anchored == crossed);
     check_derivatives(c, u);
 
-    c.contact->move_to(uniform(-0.2, 1.0) * c.depth);
-    c.contact->begin_step();
+    c.begin_step(uniform(-0.2, 1.0) * c.depth);
     c.contact->release_pulled(u);
     for (std::size_t i = 0; i < c.specimen.body.outer.size(); ++i)
       RC_ASSERT(c.contact->anchored_push(i, u) >= -2e-12 * c.specimen.body.outer[i].stiffness);
-    c.contact->move_to(-20.0 * c.specimen.geometry.tip_radius);
-    c.contact->begin_step();
+    c.begin_step(-20.0 * c.specimen.geometry.tip_radius);
     c.contact->release_pulled(u);
     RC_ASSERT(c.contact->energy(u) == 0.0);
     RC_ASSERT(c.forces(u).isZero(0.0));

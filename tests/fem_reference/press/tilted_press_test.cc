@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "tests/fem_reference/press/pressing.h"
@@ -199,6 +200,34 @@ TEST(PressAndSlide, CoulombSlidesUnderFrictionTimesPush) {
   EXPECT_GT(states[1].active_nodes, states[1].sliding_nodes);
   EXPECT_NEAR(states[3].lateral_force_x / states[3].normal_force, 0.2, 0.002);
   EXPECT_LT(std::abs(states[1].lateral_force_x), 1e-3 * states[1].normal_force);
+}
+
+/// Small strain follows an obstacle that takes the rubber along: what it presses on stays as it is,
+/// and its field adds up to what the plane feels.
+TEST(PressAndSlide, SmallStrainFollowsTheObstacle) {
+  for (const auto shape : {meshes::ObstacleShape::sphere, meshes::ObstacleShape::cylinder,
+                           meshes::ObstacleShape::edge}) {
+    for (const ContactMode contact : {ContactMode::stick, ContactMode::coulomb}) {
+      SCOPED_TRACE(std::string(name(shape)) + ", " + std::string(name(contact)));
+      ReferenceJob job = press_and_slide(contact, 3e-4);
+      job.protocol.friction = 0.4;
+      job.protocol.obstacle = {.shape = shape, .radius = 6e-3};
+      const auto states = states_along(job);
+      const PressState &straight = states[1], &aside = states.back();
+      EXPECT_NEAR(aside.normal_force, straight.normal_force, 0.01 * straight.normal_force);
+      EXPECT_GT(aside.lateral_force_x, 0.0);
+      EXPECT_LE(aside.lateral_force_x, 0.4 * aside.normal_force * 1.001);
+      const auto sums = meshes::sums_of(aside.contact, job.geometry.rod_endpoint());
+      EXPECT_NEAR(-sums.force.z(), aside.normal_force, 1e-9 * aside.normal_force);
+      EXPECT_NEAR(sums.force.x(), aside.lateral_force_x, 1e-9 * aside.normal_force);
+      EXPECT_NEAR(sums.torque.y(), aside.torque_y,
+                  1e-9 * aside.normal_force * job.geometry.rod_length);
+      for (const meshes::ContactPoint& point : aside.contact)
+        if (contact == ContactMode::coulomb) {
+          EXPECT_LE(point.shear.norm(), 0.4 * point.normal_traction + 1e-6 * aside.max_pressure);
+        }
+    }
+  }
 }
 
 TEST(CoulombPress, LiesBetweenFrictionlessAndStick) {

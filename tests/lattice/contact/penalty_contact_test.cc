@@ -159,7 +159,7 @@ void expect_static_contact(const Scene& s) {
   for (const ContactMode mode : both_modes) {
     PenaltyContact moving(s.model, s.plane, mode, s.team);
     StaticContact resting(body, s.press, mode);
-    resting.move_to(-clearance);
+    resting.begin_step(-clearance, Eigen::VectorXd::Zero(body.unknowns()));
     VectorField force;
     Eigen::VectorXd before = Eigen::VectorXd::Zero(body.unknowns()), u, in_statics;
     const int steps = 200;

@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "lattice/press/press.h"
@@ -156,6 +159,129 @@ TEST(ObstaclePress, PublishedParticlesStandOnTheObstacle) {
     const auto outcome = lattice::run_press(setup);
     EXPECT_NEAR(outcome.response.normal_force_at(1e-3), at_rest, 0.1 * at_rest);
     EXPECT_LT(outcome.momentum_defect, 1e-9);
+  }
+}
+
+/// A plane, a ball, a cylinder and an edge, pressed upon and then moved along their plane.
+const std::vector<Obstacle> moved_obstacles = {{},
+                                               {.shape = ObstacleShape::sphere, .radius = 6e-3},
+                                               {.shape = ObstacleShape::cylinder, .radius = 6e-3},
+                                               {.shape = ObstacleShape::edge, .radius = 2e-3}};
+const std::vector<std::pair<ModelKind, ContactMode>> moved_kinds = {
+    {ModelKind::hookean, ContactMode::frictionless},
+    {ModelKind::hookean, ContactMode::stick},
+    {ModelKind::hookean, ContactMode::coulomb},
+    {ModelKind::network, ContactMode::stick},
+    {ModelKind::network, ContactMode::coulomb}};
+
+PressSetup moved_press(const Obstacle& obstacle, ModelKind model, ContactMode contact) {
+  PressSetup setup = press_on(obstacle, model, contact, 5);
+  setup.protocol.friction = 0.4;
+  setup.protocol.samples = {setup.protocol.depth = 1.5e-3};
+  setup.protocol.lateral_samples = 1;
+  return setup;
+}
+
+std::string words_of(const Obstacle& obstacle, ModelKind model, ContactMode contact) {
+  return std::string(name(obstacle.shape)) + ", " + std::string(name(model)) + ", " +
+         std::string(name(contact));
+}
+
+/// What the field of the last sample adds up to is what the rod feels, by force and torque within
+/// `share` of the normal force; nothing holds more across than friction does.
+void expect_balance(const meshes::PressSample& sample, std::span<const meshes::ContactPoint> field,
+                    const PressSetup& setup, double share) {
+  const meshes::ContactSums sums = sums_of(field, setup.geometry.rod_endpoint());
+  const double force = share * sample.normal_force, torque = force * setup.geometry.tip_radius;
+  EXPECT_NEAR(-sums.force.z(), sample.normal_force, force);
+  EXPECT_NEAR(sums.force.x(), sample.lateral_force_x, force);
+  EXPECT_NEAR(sums.force.y(), sample.lateral_force_y, force);
+  EXPECT_NEAR(sums.torque.x(), sample.torque_x, torque);
+  EXPECT_NEAR(sums.torque.y(), sample.torque_y, torque);
+  EXPECT_NEAR(sums.torque.z(), sample.torque_z, torque);
+}
+
+TEST(ObstaclePress, ContactAndRodFeelTheSameWhereTheObstacleMoves) {
+  for (const Obstacle& obstacle : moved_obstacles) {
+    for (const auto& [model, contact] : moved_kinds) {
+      for (const bool twisted : {false, true}) {
+        SCOPED_TRACE(words_of(obstacle, model, contact) + (twisted ? ", twisted" : ", aside"));
+        PressSetup setup = moved_press(obstacle, model, contact);
+        setup.protocol.lateral_path = meshes::LateralPath::after;
+        (twisted ? setup.protocol.twist : setup.protocol.lateral) = twisted ? 0.17 : 3e-4;
+        const auto outcome = lattice::run_static_press(setup);
+        const auto fields = samples_of(outcome.contact);
+        ASSERT_EQ(fields.size(), 2U);
+        expect_balance(outcome.response.samples().back(), fields.back(), setup, 1e-6);
+      }
+    }
+  }
+}
+
+/// A ball that sticks takes the rubber along: what it presses on stays as it is. (Told from where
+/// the rubber is at rest, gaps would close in front of the ball: 4 % more force.)
+TEST(ObstaclePress, SmallStrainFollowsTheObstacle) {
+  for (const ContactMode contact : {ContactMode::stick, ContactMode::coulomb}) {
+    std::vector<double> change;
+    for (const ModelKind model : {ModelKind::hookean, ModelKind::network}) {
+      PressSetup setup = moved_press(moved_obstacles[1], model, contact);
+      setup.protocol.lateral_path = meshes::LateralPath::after;
+      setup.protocol.lateral = 6e-4;
+      const auto samples = pressed(setup);
+      change.push_back(samples[1].normal_force / samples[0].normal_force - 1.0);
+    }
+    EXPECT_LT(std::abs(change[1]), 0.01);
+    EXPECT_NEAR(change[0], change[1], 0.01) << name(contact);
+  }
+}
+
+/// To one side, to the other and back: friction takes work and never gives any.
+TEST(ObstaclePress, AClosedLoopTakesWork) {
+  for (const Obstacle& obstacle : moved_obstacles) {
+    for (const auto& [model, contact] : moved_kinds) {
+      SCOPED_TRACE(words_of(obstacle, model, contact));
+      PressSetup setup = moved_press(obstacle, model, contact);
+      setup.protocol.friction = 0.1;
+      setup.protocol.lateral_samples = 3;
+      setup.protocol.program = {{.indentation = setup.protocol.depth, .speed = 1e-2}};
+      for (const double place : {3e-4, -3e-4, 0.0, 3e-4})
+        setup.protocol.program.push_back({.indentation = setup.protocol.depth,
+                                          .speed = 1e-2,
+                                          .move = meshes::StageMove::lateral,
+                                          .lateral = place});
+      const auto samples = pressed(setup);
+      // The loop is that of the last three stages, from one side back to it.
+      double work = 0.0;
+      for (std::size_t i = 1; i < samples.size(); ++i) {
+        if (samples[i].stage < 3.0) continue;
+        work += 0.5 * (samples[i].lateral_force_x + samples[i - 1].lateral_force_x) *
+                (samples[i].lateral_displacement - samples[i - 1].lateral_displacement);
+      }
+      const double scale = 0.1 * samples.back().normal_force * 1.2e-3;
+      EXPECT_GE(work, -1e-3 * scale);
+      if (contact == ContactMode::coulomb) {
+        EXPECT_GT(work, 0.01 * scale);
+      }
+    }
+  }
+}
+
+TEST(ObstaclePress, AMovingContactAndItsRodFeelTheSame) {
+  for (const Obstacle& obstacle : moved_obstacles) {
+    for (const ContactMode contact : {ContactMode::stick, ContactMode::coulomb}) {
+      SCOPED_TRACE(words_of(obstacle, ModelKind::hookean, contact));
+      PressSetup setup = moved_press(obstacle, ModelKind::hookean, contact);
+      setup.protocol.lateral = 3e-4;  // on the way down
+      const auto at_rest = pressed(setup).back();
+      setup.protocol.mode = DriveMode::quasi_static;
+      const auto outcome = lattice::run_press(setup);
+      const auto fields = samples_of(outcome.contact);
+      ASSERT_FALSE(fields.empty());
+      const meshes::PressSample& sample = outcome.response.samples().back();
+      expect_balance(sample, fields.back(), setup, 0.02);
+      EXPECT_NEAR(sample.normal_force, at_rest.normal_force, 0.03 * at_rest.normal_force);
+      EXPECT_NEAR(sample.lateral_force_x, at_rest.lateral_force_x, 0.03 * at_rest.normal_force);
+    }
   }
 }
 

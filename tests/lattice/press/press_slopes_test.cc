@@ -322,9 +322,9 @@ TEST(EquilibriumSolver, RespondsToSmallForces) {
   const lattice::ElasticSystem system(body);
   lattice::StaticContact contact(body, lattice::press_plane(setup.protocol, setup.geometry),
                                  setup.protocol.contact);
-  contact.move_to(5e-4);
   lattice::EquilibriumSolver solver(system);
   VectorXd u = VectorXd::Zero(body.unknowns());
+  contact.begin_step(5e-4, u);
   ASSERT_TRUE(solver.solve(contact, u));
   MatrixXd forces = MatrixXd::Zero(u.size(), 3), responses = forces;
   forces.col(0) = random_field(u.size(), 1e-3);

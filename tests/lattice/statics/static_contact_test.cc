@@ -80,8 +80,8 @@ TEST(Equilibrium, ConfinedBlockIsCompressedUniformly) {
     const ElasticSystem system(body);
     EquilibriumSolver solver(system);
     StaticContact contact(body, plane_above(height), ContactMode::frictionless);
-    contact.move_to(depth);
     VectorXd u = VectorXd::Zero(body.unknowns());
+    contact.begin_step(depth, u);
     ASSERT_TRUE(solver.solve(contact, u));
     const auto stress = [&](double stretch) {
       return kinematics == Kinematics::finite
@@ -108,8 +108,8 @@ TEST(Equilibrium, WithoutContactRestIsKept) {
   const ElasticSystem system(body);
   EquilibriumSolver solver(system);
   StaticContact contact(body, plane_above(height + 1e-4), ContactMode::frictionless);
-  contact.move_to(5e-5);
   VectorXd u = VectorXd::Zero(body.unknowns());
+  contact.begin_step(5e-5, u);
   EXPECT_TRUE(solver.solve(contact, u));
   EXPECT_EQ(u.norm(), 0.0);
 }
@@ -181,7 +181,7 @@ TEST(StaticContact, SticksWhereItFirstTouched) {
   const double from = 1e-5, to = 5e-5;
   // Gap 3e-5 at the start, -1e-5 at the end: three quarters of the way. The plane moves by 2e-5.
   const VectorXd start = moved({0.0, 0.0, -4e-5}), end = moved({8e-5, -4e-5, -4e-5});
-  contact.move_to(to);
+  contact.begin_step(to, start);
   EXPECT_EQ(contact.anchor_touching(start, from, end), 4);
   EXPECT_EQ(contact.anchor_touching(start, from, end), 0);
   const double stiffness = body.outer[0].stiffness;
@@ -190,7 +190,7 @@ TEST(StaticContact, SticksWhereItFirstTouched) {
   EXPECT_LT((contact.tie_force(0, end) - stiffness * (anchor - Vector3(8e-5, -4e-5, -4e-5))).norm(),
             1e-9 * stiffness * 1e-5);
   const double later = 9e-5;
-  contact.move_to(later);
+  contact.begin_step(later, end);
   const Vector3 carried = anchor + Vector3(2e-5, 0.0, -4e-5);
   EXPECT_LT((contact.tie_force(0, moved(carried)).norm()), 1e-9 * stiffness * 1e-5);
   EXPECT_EQ(contact.release_pulled(moved(carried + Vector3(0.0, 0.0, 1e-6))), 0);  // pushed

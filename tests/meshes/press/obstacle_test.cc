@@ -106,6 +106,17 @@ TEST(Obstacle, HeightIsWhereTheDistanceVanishes) {
 }
 
 /// Two balls side by side: their centres are R + radius apart.
+/// None where a point goes along with the obstacle, all where it stays, a part where it follows in
+/// part or aslant, and never more than the way nor less than nothing.
+TEST(Obstacle, FeetPassByWhatPointsDo) {
+  EXPECT_EQ(fingertip::meshes::share_passed(0.0, 0.0, 3.0, 4.0), 0.0);
+  EXPECT_EQ(fingertip::meshes::share_passed(3.0, 4.0, 3.0, 4.0), 1.0);
+  EXPECT_DOUBLE_EQ(fingertip::meshes::share_passed(5.0, 0.0, 3.0, 4.0), 0.6);
+  EXPECT_EQ(fingertip::meshes::share_passed(6.0, 8.0, 3.0, 4.0), 1.0);
+  EXPECT_EQ(fingertip::meshes::share_passed(-3.0, -4.0, 3.0, 4.0), 0.0);
+  EXPECT_EQ(fingertip::meshes::share_passed(1.0, 1.0, 0.0, 0.0), 0.0);
+}
+
 TEST(Obstacle, FirstTouchOfBallsIsThatOfTheirCentres) {
   const Geometry dome;
   const double R = dome.tip_radius, radius = 4e-3;
