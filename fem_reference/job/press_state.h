@@ -19,8 +19,12 @@ struct PressEffort {
 /// What one sample yields, and what it cost.
 struct PressState : meshes::PressSample, PressEffort {
   std::vector<meshes::ContactPoint> contact;  ///< nodes, with their images, that are pushed
-  double node_spacing = 0.0;          ///< of the candidate nodes around the contact edge [m]
-  double min_jacobian = 1.0;          ///< smallest det F at a quadrature point; 1 at small strain
+  double node_spacing = 0.0;  ///< of the candidate nodes around the contact edge [m]
+  double peak_spacing = 0.0;  ///< of the nodes where pressure is largest [m]
+  /// Whether the contact ends within the surface that may touch, so that its edge moves; a pad's
+  /// ends where the face does.
+  bool free_edge = true;
+  double min_jacobian = 1.0;  ///< smallest det F at a quadrature point; 1 at small strain
   /// Stored in the rubber; if it relaxes, after long times of this strain [J].
   double energy = 0.0;
   /// About the energy that the mesh stores in excess: G times the sum of the squared error

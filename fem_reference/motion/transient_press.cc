@@ -129,9 +129,12 @@ class TipInMotion final : public TransientPress {
     state.active_nodes = contact_->active_nodes();
     const std::vector<SurfaceNode>& nodes = contact_->unknowns().nodes;
     const std::vector<meshes::Vector3> rest(nodes.size(), meshes::Vector3::Zero());
-    PushedNodes pushed{.nodes = pushed_nodes(*contact_, rest, seen_areas(*body_, nodes, nullptr)),
-                       .sectors = int(copies<dim>),
-                       .meridian = dim == 2};
+    std::vector<double> squares;
+    if constexpr (dim == 2) squares = mean_squares(*body_, nodes, nullptr);
+    PushedNodes pushed{
+        .nodes = pushed_nodes(*contact_, rest, seen_areas(*body_, nodes, nullptr), squares),
+        .sectors = int(copies<dim>),
+        .meridian = dim == 2};
     double outermost = 0.0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (contact_->status()[i] == NodeStatus::open || nodes[i].area == 0.0 ||

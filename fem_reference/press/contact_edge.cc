@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace fingertip::fem_reference::inline press {
 namespace {
@@ -81,7 +83,7 @@ std::optional<double> edge_of(const PushedNodes& contact, const Ellipse& ellipse
     int count = 0;
     for (const meshes::ContactPoint& node : contact.nodes) {
       const double s = ellipse.at(seen(node)) / outermost;
-      if (!(s >= inner * inner)) continue;
+      if (!(s >= inner * inner && node.area > 0.0)) continue;
       const Eigen::Vector3d basis(1.0, s, s * s);
       normal += basis * basis.transpose();
       right += node.normal_traction * node.normal_traction * basis;
@@ -107,27 +109,75 @@ int points_on(double share_of_outermost) {
                                   : 1;
 }
 
+/// A ring of nodes about the axis: where r² has this value the pressure is this.
+struct Ring {
+  double square, pressure;
+};
+
+/// Where r vanishes: p is even in r and smooth, so that p² is linear in r² there, and of Hertz's
+/// contact in all of it.
+double pressure_at_pole(std::vector<Ring> rings) {
+  constexpr std::size_t most = 4;
+  std::ranges::sort(rings, {}, &Ring::square);
+  rings.resize(std::min(most, rings.size()));
+  if (rings.empty()) return 0.0;
+  Ring mean{0.0, 0.0};  // of r² and p²
+  for (const Ring& ring : rings) {
+    mean.square += ring.square / double(rings.size());
+    mean.pressure += ring.pressure * ring.pressure / double(rings.size());
+  }
+  double both = 0.0, spread = 0.0;
+  for (const Ring& ring : rings) {
+    const double off = ring.square - mean.square;
+    both += off * ring.pressure * ring.pressure;
+    spread += off * off;
+  }
+  const double slope = spread > 0.0 ? both / spread : 0.0;
+  return std::sqrt(std::max(0.0, mean.pressure - slope * mean.square));
+}
+
+/// To the nearest other node; infinite of one alone.
+double spacing_at(const meshes::ContactPoint& node,
+                  const std::vector<meshes::ContactPoint>& nodes) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const meshes::ContactPoint& other : nodes)
+    if (&other != &node) nearest = std::min(nearest, (seen(other) - seen(node)).norm());
+  return nearest;
+}
+
 }  // namespace
 
 std::vector<meshes::ContactPoint> pushed_nodes(const PlaneContact& contact,
                                                const std::vector<meshes::Vector3>& moved,
-                                               const std::vector<double>& seen) {
+                                               const std::vector<double>& seen,
+                                               const std::vector<double>& squares) {
   const std::vector<SurfaceNode>& nodes = contact.unknowns().nodes;
   const std::vector<NodeStatus>& status = contact.status();
   std::vector<meshes::Vector3> force(nodes.size(), meshes::Vector3::Zero());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (status[i] != NodeStatus::open) force[contact.leader(i)] += contact.reaction(i);
   std::vector<meshes::ContactPoint> pushed;
+  std::vector<Ring> rings;
+  std::optional<std::size_t> pole;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (status[i] == NodeStatus::open || !(seen[i] > 0.0)) continue;
+    if (status[i] == NodeStatus::open) continue;
+    const bool is_pole = contact.leader(i) != i;
+    if (!is_pole && !(seen[i] > 0.0)) continue;
+    if (is_pole) pole = pushed.size();
     meshes::ContactPoint& point = pushed.emplace_back();
     point.rest = nodes[i].position;
     point.place = point.rest + moved[i];
     point.normal = contact.normal(i);
-    point.area = seen[i] / -point.normal.z();
     point.state =
         status[i] == NodeStatus::stick ? meshes::ContactState::stick : meshes::ContactState::slip;
+    if (is_pole) continue;
+    point.area = seen[i] / -point.normal.z();
     point.set_force(force[i]);
+    if (!squares.empty()) rings.push_back({squares[i], point.normal_traction});
+  }
+  if (pole) {
+    pushed[*pole].normal_traction = pressure_at_pole(std::move(rings));
+    pushed[*pole].reach = 0.5 * spacing_at(pushed[*pole], pushed);
   }
   return pushed;
 }
@@ -145,18 +195,23 @@ double contact_radius(const PushedNodes& contact) {
 
 void measure_contact(PressState& state, const PushedNodes& contact) {
   state.node_spacing = contact.spacing;
-  double peak = 0.0, outermost = 0.0;
+  state.contact.clear();
+  if (contact.nodes.empty()) return state.set_contact(0.0, 0.0);
+  double outermost = 0.0;
   for (const meshes::ContactPoint& node : contact.nodes)
     outermost = std::max(outermost, seen(node).norm());
-  state.contact.clear();
   for (const meshes::ContactPoint& node : contact.nodes) {
-    peak = std::max(peak, node.normal_traction);
-    if (contact.meridian)
+    if (contact.meridian && node.area > 0.0)
       std::ranges::copy(turned_around(node, points_on(seen(node).norm() / outermost)),
                         std::back_inserter(state.contact));
+    else
+      state.contact.push_back(node);
   }
   if (!contact.meridian) state.contact = meshes::unfolded(contact.nodes, contact.sectors);
-  state.set_contact(contact_radius(contact), peak);
+  const auto peak =
+      std::ranges::max_element(contact.nodes, {}, &meshes::ContactPoint::normal_traction);
+  state.peak_spacing = std::min(spacing_at(*peak, contact.nodes), contact.spacing);
+  state.set_contact(contact_radius(contact), peak->normal_traction);
 }
 
 }  // namespace fingertip::fem_reference::inline press

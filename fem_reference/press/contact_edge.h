@@ -18,10 +18,12 @@ struct PushedNodes {
 };
 
 /// The nodes that touch, `moved` from rest and standing for areas seen along the press [m²]: what a
-/// pole without area bears its neighbour does.
+/// pole bears, which has no area, its neighbour does. Of a meridian `squares` are its mean_squares,
+/// and the pole is a place without area, under the pressure that the rings around it tell.
 std::vector<meshes::ContactPoint> pushed_nodes(const PlaneContact& contact,
                                                const std::vector<meshes::Vector3>& moved,
-                                               const std::vector<double>& seen);
+                                               const std::vector<double>& seen,
+                                               const std::vector<double>& squares = {});
 
 /// Radius of the circle that has the contact's area [m].
 ///
@@ -34,7 +36,7 @@ std::vector<meshes::ContactPoint> pushed_nodes(const PlaneContact& contact,
 double contact_radius(const PushedNodes& contact);
 
 /// Notes the nodes, all around, in a state whose normal force is known, and tells radius, area,
-/// mean and largest pressure.
+/// mean and largest pressure, that of a node.
 void measure_contact(PressState& state, const PushedNodes& contact);
 
 }  // namespace fingertip::fem_reference::inline press

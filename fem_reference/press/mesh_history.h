@@ -21,6 +21,9 @@ struct MeshRecord {
 /// The sequence of meshes, coarse to fine.
 class MeshHistory {
  public:
+  /// A value of a sample that the meshes tell an error of.
+  using Value = double meshes::PressSample::*;
+
   /// `safety` multiplies every error of a mesh. Forces below `min_share` of the largest need not
   /// be known better than one of that size: where a press ends unloaded, or nearly.
   explicit MeshHistory(double safety = 1.0, double min_share = 0.0)
@@ -42,10 +45,13 @@ class MeshHistory {
   /// e: estimate_force_error with the node spacing h at this sample's contact edge as the measure
   /// of a mesh: adaptive meshes are refined here for one sample and there for another, and a mesh
   /// that is no finer at the edge tells nothing about it. NaN while there is one such spacing only.
+  /// Where no edge moves - a pad touches with all of its face - nodes at the edge decide nothing,
+  /// and refinement has no reason to go there. Then F is off by what the mesh stores too much,
+  /// whose share S/E (below) falls like the square of h: the measure is h = (S/E)^1/2.
   ///
   /// m w: three forces may agree by chance. F is stationary in the contact radius a, which jumps by
-  /// up to h, so its noise is of the order w = F (h/a)² at every depth; m is the median of e/w over
-  /// the samples.
+  /// up to h, so its noise is of the order w = F (h/a)² at every depth, F h² where no edge moves; m
+  /// is the median of e/w over the samples.
   ///
   /// b: no difference shows what no refinement has touched. F is the derivative of the energy E by
   /// the indentation, and a mesh stores too much of it everywhere; as both grow with like powers of
@@ -54,6 +60,13 @@ class MeshHistory {
   /// solids is 0.4 ... 1.7 F S/E without friction at small strain, -0.9 ... 0.9 with stick. It is
   /// no correction: its factor varies with mesh and rubber.
   ForceError error(std::size_t index) const;
+  /// Of the contact radius [m] and the largest pressure [Pa], NaN while that of the force is: from
+  /// the meshes in the same way, but not less than three floors. Both: the relative error of the
+  /// force, of the pressure twice that. Radius: 0.3 node spacings at a free edge. Pressure: 0.2
+  /// d²/a² of it, d the node spacing at the peak. Where pressure has no largest value, at a rim
+  /// that sticks, it grows with every mesh, and its error with it.
+  double radius_error(std::size_t index) const;
+  double pressure_error(std::size_t index) const;
   /// Which of the `best` are off by more than that share of normal_force.
   std::vector<char> beyond(double tolerance) const;
   /// Largest force_error over normal_force; NaN before there is an estimate for every sample.
@@ -66,8 +79,9 @@ class MeshHistory {
  private:
   std::vector<double> relative_errors() const;
   const PressState* finest_state(std::size_t index) const;
-  ForceError edge_error(std::size_t index) const;
-  double typical_edge_error() const;
+  ForceError mesh_error(std::size_t index, Value value) const;     ///< e
+  double typical_error(bool free_edge, Value value) const;         ///< m
+  ForceError contact_error(std::size_t index, Value value) const;  ///< max(e, m w)
 
   std::vector<MeshRecord> meshes_;
   double safety_, min_share_;

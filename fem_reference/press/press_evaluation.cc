@@ -26,6 +26,10 @@ namespace {
 /// node, and the force with it.
 constexpr double nodes_per_edge_radius = 10.0;
 
+/// Sine of the angle at which a surface leaves the obstacle too steeply for the contact to follow:
+/// its edge stays where that begins, at the rim of a pad.
+constexpr double steep = 0.7;
+
 /// Excess of a mesh's energy over the sum of its squared error indicators. The solid's is in the
 /// factor of safety of MeshHistory::error; a meridian's indicators are smaller for the same error.
 /// Found from 480 forces against forces of finer meshes: MEASUREMENTS.md, On the meridian.
@@ -112,7 +116,10 @@ void TipPress<dim>::add_resultant(PressState& state) const {
     force += push;
     torque += (nodes[i].position + moved[i] - endpoint).cross(push);
   }
-  PushedNodes pushed{.nodes = pushed_nodes(*contact_, moved, seen),
+  std::vector<double> squares;
+  if constexpr (Kinematics<dim>::revolved)
+    squares = mean_squares(*body_, nodes, finite ? &displacement_ : nullptr);
+  PushedNodes pushed{.nodes = pushed_nodes(*contact_, moved, seen, squares),
                      .sectors = int(sectors),
                      .meridian = Kinematics<dim>::revolved};
   state.normal_force = -sectors * force.z();
@@ -161,6 +168,20 @@ double TipPress<dim>::half_width() const {
 }
 
 template <int dim>
+bool TipPress<dim>::edge_moves_among(const std::vector<std::size_t>& candidates) const {
+  const std::vector<SurfaceNode>& nodes = contact_->unknowns().nodes;
+  const auto is_open = [this](std::size_t i) { return contact_->status()[i] == NodeStatus::open; };
+  for (const std::size_t i : candidates) {
+    if (!is_open(i)) continue;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::size_t j : candidates)
+      if (!is_open(j)) nearest = std::min(nearest, (nodes[i].position - nodes[j].position).norm());
+    if (contact_->gap(i) < steep * nearest && std::isfinite(nearest)) return true;
+  }
+  return false;
+}
+
+template <int dim>
 void TipPress<dim>::note_indicators(PressState& state) {
   Marks marks;
   dealii::Vector<float>& now = marks.indicators;
@@ -179,28 +200,30 @@ void TipPress<dim>::note_indicators(PressState& state) {
   if (sum > 0.0) now *= float(1.0 / sum);
   state.indicator = excess_energy<dim> * copies(sector_) * job_.rubber.shear_modulus * sum;
 
-  std::map<long, bool> touches;
+  std::map<long, std::size_t> candidates;
   for (std::size_t i = 0; i < contact_->status().size(); ++i)
-    touches[contact_->unknowns().nodes[i].unknown[2]] = contact_->status()[i] != NodeStatus::open;
+    candidates[contact_->unknowns().nodes[i].unknown[2]] = i;
   const double edge = half_width();
   std::vector<dealii::types::global_dof_index> indices(body_->fine.element.n_dofs_per_cell());
   for (const auto& cell : body_->fine.dofs.active_cell_iterators()) {
     if (!cell->is_locally_owned() || !cell->at_boundary()) continue;
     cell->get_dof_indices(indices);
-    bool active = false, open = false;
-    for (const auto index : indices) {
-      const auto found = touches.find(long(index));
-      if (found != touches.end()) (found->second ? active : open) = true;
-    }
-    if (!active || !open) continue;
-    for (const auto& face : cell->face_iterators()) {
-      if (!face->at_boundary() ||
-          face->boundary_id() != dealii::types::boundary_id(meshes::PhysicalTag::outer))
+    for (const unsigned face : cell->face_indices()) {
+      if (!cell->face(face)->at_boundary() ||
+          cell->face(face)->boundary_id() != dealii::types::boundary_id(meshes::PhysicalTag::outer))
         continue;
-      const double spacing = face->diameter() / std::sqrt(dim - 1.0) / job_.degree;
+      std::vector<std::size_t> nodes;
+      for (unsigned i = 0; i < indices.size(); ++i) {
+        const auto found = candidates.find(long(indices[i]));
+        if (found != candidates.end() && body_->fine.element.has_support_on_face(i, face))
+          nodes.push_back(found->second);
+      }
+      if (!edge_moves_among(nodes)) continue;
+      const double spacing = cell->face(face)->diameter() / std::sqrt(dim - 1.0) / job_.degree;
       marks.edge[cell->active_cell_index()] = spacing > edge / nodes_per_edge_radius ? 1.0F : 0.5F;
     }
   }
+  state.free_edge = dealii::Utilities::MPI::max(marks.edge.linfty_norm(), MPI_COMM_WORLD) > 0.0F;
   marks_.push_back(std::move(marks));
 }
 
@@ -253,6 +276,8 @@ template bool TipPress<2>::is_round() const;
 template bool TipPress<3>::is_round() const;
 template double TipPress<2>::outermost() const;
 template double TipPress<3>::outermost() const;
+template bool TipPress<2>::edge_moves_among(const std::vector<std::size_t>&) const;
+template bool TipPress<3>::edge_moves_among(const std::vector<std::size_t>&) const;
 template double TipPress<2>::half_width() const;
 template double TipPress<3>::half_width() const;
 template bool TipPress<2>::refine(double, const std::vector<char>&);

@@ -81,7 +81,9 @@ class TipPress final : public ContinuumPress {
   /// Whether contact is a disc about the axis.
   bool is_round() const;
   void add_resultant(PressState& state) const;
-  double outermost() const;   ///< reference radius of the farthest node that touches [m]
+  double outermost() const;  ///< reference radius of the farthest node that touches [m]
+  /// Whether among the candidates on an element's face those that touch end, and not at a rim.
+  bool edge_moves_among(const std::vector<std::size_t>& candidates) const;
   double half_width() const;  ///< of the contact where it is narrowest, in the reference [m]
   void note_indicators(PressState& state);
   void load_marks(std::size_t samples);

@@ -88,6 +88,60 @@ void turn(Triangulation<3>& triangulation, double tilt) {
     dealii::GridTools::rotate(dealii::Tensor<1, 3>({0.0, 1.0, 0.0}), -tilt, triangulation);
 }
 
+/// Per unknown along z: its shape function times `of_place`, a function of the place, deformed
+/// where there is a displacement, integrated over the outer surface (outer_area).
+template <int dim>
+Vector outer_integral(const Body<dim>& tip, const Vector* displacement,
+                      const dealii::Quadrature<dim - 1>& quadrature, const auto& of_place) {
+  const Space<dim>& space = tip.fine;
+  dealii::FEFaceValues<dim> values(
+      tip.mapping, space.element, quadrature,
+      dealii::update_values | dealii::update_gradients | dealii::update_normal_vectors |
+          dealii::update_quadrature_points | dealii::update_JxW_values);
+  const dealii::FEValuesExtractors::Vector whole(0);
+  std::vector<dealii::Tensor<2, dim>> gradients(quadrature.size());
+  std::vector<dealii::Tensor<1, dim>> displacements(quadrature.size());
+  std::vector<global_dof_index> indices(space.element.n_dofs_per_cell());
+  dealii::Vector<double> local(unsigned(indices.size()));
+  Vector result = space.vector();
+  Vector ghosted;
+  if (displacement) ghosted = space.ghosted(*displacement);
+  for (const auto& cell : space.dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    for (const unsigned face : cell->face_indices()) {
+      if (!cell->face(face)->at_boundary() ||
+          cell->face(face)->boundary_id() != id(PhysicalTag::outer))
+        continue;
+      values.reinit(cell, face);
+      if (displacement) {
+        values[whole].get_function_gradients(ghosted, gradients);
+        values[whole].get_function_values(ghosted, displacements);
+      }
+      local = 0.0;
+      for (unsigned q = 0; q < quadrature.size(); ++q) {
+        dealii::Tensor<1, dim> place = values.quadrature_point(q);
+        if (displacement) place += displacements[q];
+        double share = weight(values, q) * of_place(in_space<dim>(place));
+        if (displacement) {  // Nanson: n da = J F^-T N dA
+          const Eigen::Matrix3d f =
+              Eigen::Matrix3d::Identity() +
+              gradient_in_space(gradients[q], displacements[q], values.quadrature_point(q));
+          const Eigen::Vector3d normal =
+              f.inverse().transpose() * in_space<dim>(values.normal_vector(q));
+          share *= std::abs(f.determinant() * normal.z());
+        }
+        for (unsigned i = 0; i < indices.size(); ++i)
+          if (space.element.system_to_component_index(i).first == dim - 1)
+            local[i] += values.shape_value(i, q) * share;
+      }
+      cell->get_dof_indices(indices);
+      space.constraints.distribute_local_to_global(local, indices, result);
+    }
+  }
+  result.compress(dealii::VectorOperation::add);
+  return result;
+}
+
 }  // namespace
 
 template <int dim>
@@ -128,53 +182,10 @@ std::vector<FixedComponent> tip_supports(int components) {
 
 template <int dim>
 Vector outer_area(const Body<dim>& tip, const Vector* displacement) {
-  const Space<dim>& space = tip.fine;
   // Gauss-Lobatto points are the nodes, so each one's weight is its node's share of the area.
   const dealii::QGaussLobatto<dim - 1> quadrature(unsigned(tip.degree()) + 1);
-  dealii::FEFaceValues<dim> values(
-      tip.mapping, space.element, quadrature,
-      dealii::update_values | dealii::update_gradients | dealii::update_normal_vectors |
-          dealii::update_quadrature_points | dealii::update_JxW_values);
-  const dealii::FEValuesExtractors::Vector whole(0);
-  std::vector<dealii::Tensor<2, dim>> gradients(quadrature.size());
-  std::vector<dealii::Tensor<1, dim>> displacements(quadrature.size());
-  std::vector<global_dof_index> indices(space.element.n_dofs_per_cell());
-  dealii::Vector<double> local(unsigned(indices.size()));
-  Vector result = space.vector();
-  Vector ghosted;
-  if (displacement) ghosted = space.ghosted(*displacement);
-  for (const auto& cell : space.dofs.active_cell_iterators()) {
-    if (!cell->is_locally_owned()) continue;
-    for (const unsigned face : cell->face_indices()) {
-      if (!cell->face(face)->at_boundary() ||
-          cell->face(face)->boundary_id() != id(PhysicalTag::outer))
-        continue;
-      values.reinit(cell, face);
-      if (displacement) {
-        values[whole].get_function_gradients(ghosted, gradients);
-        values[whole].get_function_values(ghosted, displacements);
-      }
-      local = 0.0;
-      for (unsigned q = 0; q < quadrature.size(); ++q) {
-        double share = weight(values, q);
-        if (displacement) {  // Nanson: n da = J F^-T N dA
-          const Eigen::Matrix3d f =
-              Eigen::Matrix3d::Identity() +
-              gradient_in_space(gradients[q], displacements[q], values.quadrature_point(q));
-          const Eigen::Vector3d normal =
-              f.inverse().transpose() * in_space<dim>(values.normal_vector(q));
-          share *= std::abs(f.determinant() * normal.z());
-        }
-        for (unsigned i = 0; i < indices.size(); ++i)
-          if (space.element.system_to_component_index(i).first == dim - 1)
-            local[i] += values.shape_value(i, q) * share;
-      }
-      cell->get_dof_indices(indices);
-      space.constraints.distribute_local_to_global(local, indices, result);
-    }
-  }
-  result.compress(dealii::VectorOperation::add);
-  return result;
+  return outer_integral(tip, displacement, quadrature,
+                        [](const Eigen::Vector3d& /*place*/) { return 1.0; });
 }
 
 template <int dim>
@@ -184,6 +195,20 @@ std::vector<double> seen_areas(const Body<dim>& tip, const std::vector<SurfaceNo
   std::vector<long> unknowns;
   for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[2]);
   return tip.fine.gather(outer_area(tip, displacement ? displacement : &rest), unknowns);
+}
+
+std::vector<double> mean_squares(const Body<2>& tip, const std::vector<SurfaceNode>& nodes,
+                                 const Vector* displacement) {
+  const dealii::QGauss<1> quadrature(unsigned(tip.degree()) + 2);
+  std::vector<long> unknowns;
+  for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[2]);
+  const auto gathered = [&](const auto& of_place) {
+    return tip.fine.gather(outer_integral(tip, displacement, quadrature, of_place), unknowns);
+  };
+  const auto areas = gathered([](const Eigen::Vector3d& /*place*/) { return 1.0; });
+  std::vector<double> squares = gathered([](const Eigen::Vector3d& at) { return at.x() * at.x(); });
+  for (std::size_t i = 0; i < squares.size(); ++i) squares[i] /= areas[i];
+  return squares;
 }
 
 template <int dim>

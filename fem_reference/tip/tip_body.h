@@ -42,4 +42,10 @@ template <int dim>
 std::vector<double> seen_areas(const Body<dim>& tip, const std::vector<SurfaceNode>& nodes,
                                const Vector* displacement);
 
+/// Of nodes of a meridian, of any but a pole: the mean of r² over the surface, weighted by the
+/// node's shape function [m²]. Its force over its area is the pressure where r² has this value,
+/// were p linear in r²: at a node in the middle of a side not its own place.
+std::vector<double> mean_squares(const Body<2>& tip, const std::vector<SurfaceNode>& nodes,
+                                 const Vector* displacement);
+
 }  // namespace fingertip::fem_reference::inline tip

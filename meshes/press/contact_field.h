@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -27,10 +28,11 @@ constexpr auto names_of(ContactState) {
 /// no tilt; origin that of the finger's shape. At small strain places are those at rest, which
 /// moments are about there; at large strain those where the forces act.
 struct ContactPoint {
-  int sample = 0;                      ///< row of response.csv, from 1
-  double indentation = unknown;        ///< there [m]
-  Vector3 place = Vector3::Zero();     ///< [m]
-  double area = 0.0;                   ///< at small strain that seen along n, else as it is [m²]
+  int sample = 0;                   ///< row of response.csv, from 1
+  double indentation = unknown;     ///< there [m]
+  Vector3 place = Vector3::Zero();  ///< [m]
+  /// At small strain that seen along n, else as it is; of the pole of a meridian 0 [m²].
+  double area = 0.0;
   double normal_traction = unknown;    ///< pressure, >= 0 [Pa]
   Vector3 shear = Vector3::Zero();     ///< of the obstacle on the tip, across `normal` [Pa]
   Vector3 normal = -Vector3::UnitZ();  ///< out of the obstacle; of small strain n itself
@@ -38,8 +40,11 @@ struct ContactPoint {
   Vector3 rest = Vector3::Zero();  ///< in the undeformed finger, along the same axes [m]
   double reach = 0.0;  ///< half the longer side of its part, where that is no square [m]
 
-  /// Of the obstacle on the tip [N].
-  Vector3 force() const { return area * (normal_traction * normal + shear); }
+  /// Of the obstacle on the tip [Pa], [N].
+  Vector3 traction() const { return normal_traction * normal + shear; }
+  Vector3 force() const { return area * traction(); }
+  /// Of its part, along the longer side [m].
+  double width() const { return std::max(std::sqrt(area), 2.0 * reach); }
   /// Tractions from a force [N]; normal and area are known by then.
   void set_force(const Vector3& force);
   /// All that turns when the axes do.

@@ -25,7 +25,7 @@ namespace bg = boost::geometry;
 using Point = bg::model::d2::point_xy<double>;
 using Places = bg::index::rtree<std::pair<Point, std::size_t>, bg::index::rstar<16>>;
 
-/// Farther than so many sqrt(area) from every point there is no contact: between pads, in a ring.
+/// Farther than so many widths from every point there is no contact: between pads, in a ring.
 constexpr double gap = 1.5;
 
 struct Tractions {
@@ -57,7 +57,7 @@ class Interpolation {
     const Point here(place.x(), place.y());
     const std::size_t nearest = places_.qbegin(bg::index::nearest(here, 1))->second;
     const Vector2d way = place - field_[nearest].place.head<2>();
-    const bool beside = way.squaredNorm() > gap * gap * field_[nearest].area;
+    const bool beside = way.norm() > gap * field_[nearest].width();
     if (!patch_.is_ellipse() && (beside || !bg::covered_by(here, hull_))) return {};
     const Eigen::Vector3d found = planes_[nearest] * Eigen::Vector3d(1.0, way.x(), way.y());
     if (!(found[0] > 0.0)) return {};
@@ -82,7 +82,7 @@ class Interpolation {
       if (!patch_.is_ellipse())
         std::erase_if(near, [&](std::size_t j) {
           const Vector2d way = (field_[j].place - field_[i].place).head<2>();
-          return way.squaredNorm() > 4.0 * gap * gap * field_[i].area;
+          return way.norm() > 2.0 * gap * field_[i].width();
         });
       planes_.push_back(plane_through(i, near));
     }

@@ -38,6 +38,8 @@ struct PressSample {
   double stage = unknown;                ///< of the press's program, from 1; unknown without one
   /// Estimated root mean square over the contact of what its pressures are off [Pa].
   double pressure_error = unknown;
+  /// Estimated errors of what they are called by, of a continuum from its meshes [m], [m²], [Pa].
+  double contact_radius_error = unknown, contact_area_error = unknown, max_pressure_error = unknown;
 
   /// Radius, area, mean and largest pressure; the normal force must be known by then.
   void set_contact(double radius, double peak);
@@ -62,17 +64,18 @@ consteval auto fields_of(const PressSample*) {
                                lateral_force_y, torque_x, torque_y, torque_z, contact_radius,
                                max_pressure, force_error, time, contact_area, mean_pressure,
                                lateral_displacement, twist, spin_torque, lateral_force_error,
-                               torque_error, stage, pressure_error)
-      .in("m", "indentation contact_radius lateral_displacement")
+                               torque_error, stage, pressure_error, contact_radius_error,
+                               contact_area_error, max_pressure_error)
+      .in("m", "indentation contact_radius lateral_displacement contact_radius_error")
       .in("rad", "twist")
       .in("N", "normal_force lateral_force_x lateral_force_y force_error lateral_force_error")
       .in("N m", "torque_x torque_y torque_z spin_torque torque_error")
-      .in("m^2", "contact_area")
-      .in("Pa", "mean_pressure max_pressure pressure_error")
+      .in("m^2", "contact_area contact_area_error")
+      .in("Pa", "mean_pressure max_pressure pressure_error max_pressure_error")
       .in("s", "time")
       .if_known(
           "lateral_displacement twist spin_torque lateral_force_error torque_error stage "
-          "pressure_error");
+          "pressure_error contact_radius_error contact_area_error max_pressure_error");
 }
 
 /// A curve of samples by increasing indentation, and then, where a lateral motion or a twist

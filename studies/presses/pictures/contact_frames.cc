@@ -22,7 +22,7 @@ std::string frame_text(std::span<const ContactPoint> points) {
   for (const ContactPoint& point : points) {
     places.push_back(point.place);
     shears.push_back(point.shear);
-    tractions.emplace_back(point.force() / point.area);
+    tractions.push_back(point.traction());
     pressures.push_back(point.normal_traction);
     areas.push_back(point.area);
     states.push_back(point.state == meshes::ContactState::stick ? 1 : 2);

@@ -239,6 +239,22 @@ ReferenceJob small_press_of(const Geometry& geometry, ContactMode contact = Cont
   return job;
 }
 
+/// The edge of a contact moves over a dome, and stays at the rim of a block.
+TEST(AnyShape, KnowsWhetherItsEdgeIsFree) {
+  for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
+    ReferenceJob job = small_press_of(block(), mode);
+    job.refinement = 0.3;
+    job.press_to({2e-4});
+    EXPECT_FALSE(pressed(job, 1.0).free_edge);
+    job.geometry = fingers::solid_dome(24, 16);
+    EXPECT_TRUE(pressed(job, 1.0).free_edge);
+    // A ball leaves most of the block's face alone.
+    job.geometry = block();
+    job.protocol.obstacle = {.shape = meshes::ObstacleShape::sphere, .radius = 0.02};
+    EXPECT_TRUE(pressed(job, 1.0).free_edge);
+  }
+}
+
 /// One coarse mesh is a percent or two off; with error bars they are in MEASUREMENTS.md.
 TEST(AnyShape, TiltedDomeOfAnyKindIsTheDome) {
   ReferenceJob job = small_press_of({}, ContactMode::frictionless);

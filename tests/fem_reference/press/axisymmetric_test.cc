@@ -2,11 +2,13 @@
 // itself. Forces in closed form are with the verification.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "fem_reference/analytic/bonded_disc.h"
 #include "fem_reference/motion/transient_press.h"
 #include "fem_reference/press/force_error.h"
 #include "fem_reference/press/mesh_history.h"
@@ -59,6 +61,101 @@ TEST(Meridian, HasVolumeAndAreaOfTheBody) {
     shared += node.area;
   }
   EXPECT_NEAR(shared, area(*tip, outer), 1e-3 * R * R);
+}
+
+/// Radius and largest pressure, at the pole, of the same program at a tolerance of everyday: within
+/// their own errors, and these not idle, also where few nodes touch.
+TEST(Meridian, TellsHowFarRadiusAndLargestPressureMayBeOff) {
+  constexpr double gf = 9.80665e-3, cm = 1e-2;
+  struct Known {
+    double depth, radius, pressure;
+  };
+  const std::vector<Known> known{{0.010, 0.1049, 3.288},  {0.020, 0.1509, 4.780},
+                                 {0.030, 0.1869, 5.997},  {0.100, 0.3494, 12.567},
+                                 {0.200, 0.4837, 20.599}, {0.300, 0.5720, 28.120}};
+  constexpr double radius_known = 0.001 * cm, pressure_known = 5e-4;
+  ReferenceJob job = meridian_press();
+  job.rubber.youngs_modulus = 40 * gf / (cm * cm);
+  job.rubber.shear_modulus = 14 * gf / (cm * cm);
+  job.tolerance = 5e-3;
+  std::vector<double> depths;
+  for (const Known& at : known) depths.push_back(at.depth * cm);
+  job.press_to(depths);
+  const std::vector<PressState> states = converged(job);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    SCOPED_TRACE(known[i].depth);
+    const PressState& sample = states[i];
+    const double radius = known[i].radius * cm, pressure = known[i].pressure * gf / (cm * cm);
+    EXPECT_NEAR(sample.max_pressure, pressure, 0.01 * pressure);
+    EXPECT_NEAR(sample.max_pressure, pressure,
+                sample.max_pressure_error + pressure_known * pressure);
+    EXPECT_LT(sample.max_pressure_error, 0.03 * pressure);
+    EXPECT_NEAR(sample.contact_radius, radius, sample.contact_radius_error + radius_known);
+    EXPECT_LT(sample.contact_radius_error, 0.05 * radius);
+    EXPECT_NEAR(sample.contact_area_error / sample.contact_area,
+                2.0 * sample.contact_radius_error / sample.contact_radius, 1e-12);
+    // It is the field's, whose points still add up to the force.
+    double largest = 0.0, force = 0.0;
+    for (const meshes::ContactPoint& point : sample.contact) {
+      largest = std::max(largest, point.normal_traction);
+      force -= point.force().z();
+    }
+    EXPECT_EQ(sample.max_pressure, largest);
+    EXPECT_NEAR(force, sample.normal_force, 1e-10 * force);
+  }
+}
+
+/// A cylinder glued at its base.
+meshes::Geometry pad(double radius, double height) {
+  using enum meshes::ProfileSurface;
+  return meshes::Geometry::of_profile({{0.0, height, contact},
+                                       {radius, height, meshes::ProfileSurface::free},
+                                       {radius, 0.0, bond},
+                                       {0.0, 0.0, axis}});
+}
+
+/// On a plane without friction it is half of a disc of twice the height, glued on both faces.
+TEST(Meridian, PressesAPadAsHalfOfABondedDisc) {
+  constexpr double radius = 0.01, height = 0.01, depth = 5e-4;
+  ReferenceJob job = meridian_press();
+  job.geometry = pad(radius, height);
+  job.rubber.youngs_modulus = 1e5;
+  job.rubber.shear_modulus = 1e5 / 2.9;
+  job.tolerance = 1e-3;
+  job.press_to({depth});
+  const PressState state = converged(job).back();
+  const fem_reference::analytic::BondedDisc disc(job.rubber, radius, 2 * height);
+  const double force = 2 * depth * disc.extrapolated_stiffness(20);
+  EXPECT_NEAR(state.normal_force, force, state.force_error);
+  EXPECT_LT(state.force_error, 1e-3 * force);
+  EXPECT_FALSE(state.free_edge);
+  EXPECT_NEAR(state.contact_radius, radius, 1e-9 * radius);
+}
+
+/// At large strain, where refinement without end at the bond's corner would turn elements over.
+TEST(Meridian, PressesAPadFarAndSaysHowSureItIs) {
+  for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
+    ReferenceJob job = meridian_press(mode, Strain::finite);
+    job.geometry = pad(0.01, 0.01);
+    job.rubber.youngs_modulus = 1e5;
+    job.rubber.shear_modulus = 1e5 / 2.9;
+    job.tolerance = 0.01;
+    job.press_to({1e-4, 5e-4, 1e-3});
+    const std::vector<PressState> coarse = converged(job);
+    job.tolerance = 1e-3;
+    const std::vector<PressState> fine = converged(job);
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+      SCOPED_TRACE(coarse[i].indentation);
+      EXPECT_FALSE(coarse[i].free_edge);
+      EXPECT_NEAR(coarse[i].normal_force, fine[i].normal_force,
+                  coarse[i].force_error + fine[i].force_error);
+      EXPECT_NEAR(coarse[i].contact_radius, fine[i].contact_radius,
+                  coarse[i].contact_radius_error + fine[i].contact_radius_error);
+      if (mode == ContactMode::stick) continue;  // at the rim pressure has no largest value
+      EXPECT_NEAR(coarse[i].max_pressure, fine[i].max_pressure,
+                  coarse[i].max_pressure_error + fine[i].max_pressure_error);
+    }
+  }
 }
 
 /// The project's reference numbers of the default specimen, small strain, frictionless, E = 40,

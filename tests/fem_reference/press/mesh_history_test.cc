@@ -116,6 +116,48 @@ TEST(MeshHistory, MeshesThatAreNoFinerAtTheEdgeCountAsOne) {
   EXPECT_EQ(history.best()[0].normal_force, 1.012);
 }
 
+/// No edge of a pad moves, and no refinement goes there: how fine a mesh is tells the energy that
+/// it stores in excess.
+TEST(MeshHistory, MeshesOfAPadAreMeasuredByTheirEnergy) {
+  MeshHistory history;
+  const auto add = [&](double force, double share) {
+    PressState pad = state(1e-3, force, fine);
+    pad.free_edge = false;
+    pad.indicator = share * pad.energy;
+    history.start_mesh(mesh(std::size_t(1.0 / share)));
+    history.add(pad);
+  };
+  // Of h by which `coarse`, `medium` and `fine` differ.
+  add(1.10, 81e-4);
+  add(1.02, 36e-4);
+  add(1.01, 16e-4);
+  const double three = 1.25 * std::max(0.01 / decay(medium, fine), 0.09 / decay(coarse, fine));
+  EXPECT_NEAR(history.error(0).value, three, 1e-12);
+  const PressState best = history.best()[0];
+  EXPECT_NEAR(best.contact_radius_error, three / 1.01 * best.contact_radius, 1e-12);
+}
+
+/// As the force's, here of values in proportion to it, with floors of their own.
+TEST(MeshHistory, RadiusAndPressureHaveErrors) {
+  MeshHistory history = three_meshes();
+  const double three = history.error(0).value, share = three / 1.01;
+  PressState& finest = history.finest().states[0];
+  const double a = finest.contact_radius, p = finest.max_pressure;
+  EXPECT_NEAR(history.pressure_error(0), 2.0 * share * p, 1e-9 * p);
+  finest.peak_spacing = a;
+  EXPECT_NEAR(history.pressure_error(0), 0.2 * p, 1e-9 * p);
+  EXPECT_NEAR(history.radius_error(0), std::max(share * a, 0.3 * fine), 1e-12);
+  finest.contact_radius = 1.1 * a;  // the meshes before said a
+  EXPECT_NEAR(history.radius_error(0), 1.25 * 0.1 * a / decay(medium, fine), 1e-12);
+  EXPECT_NEAR(history.best()[0].contact_radius_error, history.radius_error(0), 1e-15);
+  EXPECT_NEAR(history.best()[0].max_pressure_error, 0.2 / 1.21 * p, 1e-9 * p);
+  MeshHistory single;
+  single.start_mesh(mesh(1000));
+  single.add(state(1e-3, 1.0, coarse));
+  EXPECT_TRUE(std::isnan(single.best()[0].contact_radius_error));
+  EXPECT_TRUE(std::isnan(single.best()[0].max_pressure_error));
+}
+
 /// Three samples with the same relative contact: of the second, all meshes agree by chance.
 TEST(MeshHistory, ForcesThatAgreeByChanceGetTheTypicalError) {
   MeshHistory history;
@@ -216,6 +258,12 @@ TEST(MeshHistory, SurvivesJson) {
   EXPECT_EQ(b.sliding_nodes, a.sliding_nodes);
   EXPECT_EQ(b.wall_time, a.wall_time);
   EXPECT_EQ(read.worst_relative_error(), history.worst_relative_error());
+  MeshHistory pad = three_meshes();
+  pad.finest().states[0].free_edge = false;
+  pad.finest().states[0].peak_spacing = 1e-4 / 3.0;
+  const MeshHistory again = MeshHistory::from_json(nlohmann::json::parse(pad.to_json().dump()));
+  EXPECT_FALSE(again.meshes()[2].states[0].free_edge);
+  EXPECT_EQ(again.meshes()[2].states[0].peak_spacing, 1e-4 / 3.0);
 }
 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {

@@ -93,6 +93,33 @@ TEST(ReferenceRun, AgreesWithTheReferenceTable) {
   EXPECT_LE((idleness[4] + idleness[5]) / 2, 10.0);
 }
 
+/// A flat-ended cylinder, without friction, at large strain: three meshes are enough.
+TEST(ReferenceRun, PressesAFlatPad) {
+  using enum meshes::ProfileSurface;
+  const TemporaryFolder parent;
+  ReferenceJob job;
+  job.geometry = meshes::Geometry::of_profile({{0.0, 0.01, contact},
+                                               {0.01, 0.01, meshes::ProfileSurface::free},
+                                               {0.01, 0.0, bond},
+                                               {0.0, 0.0, axis}});
+  job.strain = fem_reference::Strain::finite;
+  job.protocol.contact = ContactMode::frictionless;
+  job.press_to({1e-4, 5e-4, 1e-3});
+  job.tolerance = 0.03;
+  job.write_fields = false;
+  const fs::path folder = run_folder(parent, "pad", job);
+  ASSERT_EQ(carry_out(folder), 0);
+  EXPECT_EQ(summary_of(folder).at("meshes").size(), 3u);
+  const auto samples = samples_of(folder);
+  ASSERT_EQ(samples.size(), 3u);
+  for (const auto& sample : samples) {
+    EXPECT_GT(sample.force_error, 0.0);
+    EXPECT_LT(sample.force_error, job.tolerance * sample.normal_force);
+    EXPECT_LT(sample.contact_radius_error, job.tolerance * sample.contact_radius);
+    EXPECT_LT(sample.max_pressure_error, job.tolerance * sample.max_pressure);
+  }
+}
+
 TEST(ReferenceRun, LeavesACompleteFolder) {
   const TemporaryFolder parent;
   const fs::path folder = run_folder(parent, "run", small_job());

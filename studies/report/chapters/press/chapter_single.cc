@@ -211,6 +211,10 @@ Table sample_table(SampleRange samples, const std::vector<SampleColumn>& over) {
       {"Contact radius", &Sample::contact_radius, units.length},
       {"Mean pressure", &Sample::mean_pressure, units.stress},
       {"Peak pressure", &Sample::max_pressure, units.stress}};
+  const auto error_of = [](const SampleColumn& column, const Sample& sample) {
+    if (column.value == &Sample::contact_radius) return sample.contact_radius_error;
+    return column.value == &Sample::max_pressure ? sample.max_pressure_error : meshes::unknown;
+  };
   Table table;
   table.rows.resize(samples.size());
   for (const SampleColumn& place : over) {
@@ -229,8 +233,8 @@ Table sample_table(SampleRange samples, const std::vector<SampleColumn>& over) {
       largest = std::fmax(largest, std::abs(sample.*column.value));
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const double value = samples[i].*column.value;
-      table.rows[i].push_back(
-          amount_cell(std::abs(value) < noise * largest ? 0.0 : value, column.unit));
+      table.rows[i].push_back(amount_cell(std::abs(value) < noise * largest ? 0.0 : value,
+                                          column.unit, error_of(column, samples[i])));
     }
   }
   table.drop_unknown(over.size());
