@@ -43,6 +43,11 @@ double error_scale(const PressState& state, MeshHistory::Value value) {
   return state.*value * share * share;
 }
 
+/// To what the meshes tell of a vector, where it has an error at all.
+void raise(double& error, double told) {
+  if (told > error) error = told;
+}
+
 /// Calls use(name, part) for what a checkpoint tells of a state: its entry in summary.json, its row
 /// of response.csv, and the rest.
 void for_each_part(PressState& state, const auto& use) {
@@ -128,7 +133,13 @@ double MeshHistory::typical_error(bool free_edge, Value value) const {
   return *middle;
 }
 
-ForceError MeshHistory::mesh_error(std::size_t index, Value value) const {
+double MeshHistory::vector_error(std::size_t index, std::initializer_list<Value> parts) const {
+  double sum = 0.0;
+  for (const Value part : parts) sum += std::pow(mesh_error(index, part, 1.0).value, 2);
+  return safety_ * std::sqrt(sum);
+}
+
+ForceError MeshHistory::mesh_error(std::size_t index, Value value, double noise) const {
   const bool free_edge = finest_state(index)->free_edge;
   std::vector<MeshForce> sequence;
   for (const MeshRecord& record : meshes_) {
@@ -136,9 +147,10 @@ ForceError MeshHistory::mesh_error(std::size_t index, Value value) const {
     const PressState& state = record.states[index];
     const double h = coarseness(state, free_edge);
     if (!(h > 0.0)) continue;
-    const MeshForce next{std::pow(h, -3.0), state.*value};
-    const bool finer =
-        sequence.empty() || std::cbrt(next.unknowns / sequence.back().unknowns) > min_refinement;
+    // As if nodes were as far apart as makes the noise one of second order.
+    const MeshForce next{std::pow(h, -1.5 * noise), state.*value};
+    const bool finer = sequence.empty() || std::pow(next.unknowns / sequence.back().unknowns,
+                                                    1.0 / (1.5 * noise)) > min_refinement;
     if (finer)
       sequence.push_back(next);
     else
@@ -158,6 +170,11 @@ std::vector<PressState> MeshHistory::best() const {
     const ForceError found = error(i);
     result[i].set_errors(found.value / std::abs(result[i].normal_force));
     result[i].force_error = found.value;
+    using Sample = meshes::PressSample;
+    raise(result[i].lateral_force_error,
+          vector_error(i, {&Sample::lateral_force_x, &Sample::lateral_force_y}));
+    raise(result[i].torque_error,
+          vector_error(i, {&Sample::torque_x, &Sample::torque_y, &Sample::torque_z}));
     result[i].convergence = name(found.convergence);
     result[i].order = found.order;
     result[i].max_pressure_error = pressure_error(i);

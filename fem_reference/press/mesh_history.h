@@ -2,6 +2,7 @@
 /// deal.II.
 #pragma once
 
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <utility>
 #include <vector>
@@ -67,6 +68,11 @@ class MeshHistory {
   /// that sticks, it grows with every mesh, and its error with it.
   double radius_error(std::size_t index) const;
   double pressure_error(std::size_t index) const;
+  /// Of a vector of the sample, by its parts: the length of e over them, but that its noise may be
+  /// of the order h. Under stick a force aside goes with the radius of what sticks, and the torque
+  /// of a turn with its cube (meshes::PressSample::set_errors). In h^1/2 that noise is of second
+  /// order, as the force's in h, and so this takes the place of h.
+  double vector_error(std::size_t index, std::initializer_list<Value> parts) const;
   /// Which of the `best` are off by more than that share of normal_force.
   std::vector<char> beyond(double tolerance) const;
   /// Largest force_error over normal_force; NaN before there is an estimate for every sample.
@@ -79,7 +85,8 @@ class MeshHistory {
  private:
   std::vector<double> relative_errors() const;
   const PressState* finest_state(std::size_t index) const;
-  ForceError mesh_error(std::size_t index, Value value) const;     ///< e
+  /// e, of a value whose noise is of the order h to that power.
+  ForceError mesh_error(std::size_t index, Value value, double noise = 2.0) const;
   double typical_error(bool free_edge, Value value) const;         ///< m
   ForceError contact_error(std::size_t index, Value value) const;  ///< max(e, m w)
 

@@ -40,6 +40,18 @@ struct GridError {
 constexpr GridError solid_cells{0.06, 0.15, 0.2, 0.24, 0.15, 0.3};   // hookean, network
 constexpr GridError springs_alone{0.04, 0.1, 1.7, 0.18, 0.25, 0.4};  // central
 
+/// e: by how many spacings the radius of what sticks may be too large.
+constexpr double edge_of_stick = 0.16;
+
+/// Of what friction holds the share `s` is there, from 0 to 1: d ln Q/d ln u of a push aside, of
+/// Mindlin, and of a turn.
+double still_held_aside(double s) {
+  return s > 0.0 ? 1.5 * std::cbrt(1.0 - s) * (1.0 - std::pow(1.0 - s, 2.0 / 3.0)) / s : 1.0;
+}
+double still_held_in_turn(double s) {
+  return std::sqrt(1.0 - s);
+}
+
 /// F = factor (delta^3/2 + layer delta²).
 struct RoughForce {
   double factor = 0.0, layer = 0.0, pole_radius = 0.0, wall = 0.0;
@@ -347,6 +359,38 @@ std::optional<ForceEstimate> ForceEstimator::of(const meshes::PressSample& sampl
 std::optional<ForceEstimate> ForceEstimator::at(double depth) const {
   if (!knows_model()) return {};
   return terms_->estimate({}, depth);
+}
+
+meshes::RelativeErrors ForceEstimator::errors(const meshes::PressSample& sample,
+                                              const ForceEstimate& estimate) const {
+  const PressSetup& setup = terms_->setup;
+  const meshes::ContactMode contact = setup.protocol.contact;
+  meshes::RelativeErrors errors{
+      .normal = estimate.sum(),
+      .aside = estimate.sum(),
+      .spin = estimate.sum(),
+      .lever = (setup.geometry.rod_endpoint() - setup.geometry.pole() * meshes::Vector3::UnitZ())
+                   .norm()};
+  if (contact == meshes::ContactMode::frictionless) return errors;
+  double held_aside = 1.0, held_in_turn = 1.0;
+  if (contact == meshes::ContactMode::coulomb) {
+    constexpr double of_hertz = 3.0 * std::numbers::pi / 16.0;
+    const double most = setup.protocol.friction * sample.normal_force,
+                 spin = std::isnan(sample.spin_torque) ? 0.0 : std::abs(sample.spin_torque);
+    held_aside = still_held_aside(std::min(sample.force().head<2>().norm() / most, 1.0));
+    held_in_turn =
+        still_held_in_turn(std::min(spin / (of_hertz * most * sample.contact_radius), 1.0));
+  }
+  const bool central = setup.lattice.model == ModelKind::central;
+  const double x = terms_->elongated * setup.lattice.spacing / sample.contact_radius,
+               edge = edge_of_stick * x,
+               springs =
+                   central ? std::abs((2.0 - setup.rubber.poissons_ratio()) / 1.75 - 1.0) : 0.0,
+               slipping = 2.0 * (central ? springs_alone : solid_cells).edge * x * x * x;
+  errors.aside += held_aside * (edge + springs - estimate.model);
+  errors.spin += held_in_turn * (3.0 * edge - estimate.model) + (1.0 - held_in_turn) * slipping;
+  errors.centre = held_in_turn * edge;
+  return errors;
 }
 
 double ForceEstimator::spacing_for(double depth, double tolerance) const {

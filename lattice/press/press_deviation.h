@@ -122,14 +122,28 @@ struct ForceEstimate {
 /// a that of the sample, of an elongated one (cylinders, edges) so that x² is the mean over its
 /// half axes, R of both bodies together, T that of the ties, which are a little soft on any grid
 /// (lattice/MEASUREMENTS.md). A to T cover 95 % of the samples of presses drawn by a seed
-/// (tests/judgement/drawn_presses.py; others judge). Programs, rubbers that relax and lateral
-/// motions are not among them.
+/// (tests/judgement/drawn_presses.py; others judge). Programs and rubbers that relax are not among
+/// them.
 ///
 /// Profile. Where the contact ends is known to a mass: P x^3/2, with what the force is off 95 % of
 /// the same presses' fields (drawn_presses.py --fields).
 ///
+/// Edge. What sticks carries shear that grows like 1/sqrt of the distance from its edge, which
+/// displacements linear between masses follow no better than to a cell, and a cell of which a part
+/// sticks moves as one. Both make the radius of what sticks larger, by up to e h. Normal forces are
+/// stationary in it; lateral stiffness, 8 G a/(2 - nu) (Mindlin, J. Appl. Mech. 16 (1949) 259),
+/// goes with it, torsion, 16 G a³/3 (Reissner & Sagoci, J. Appl. Phys. 15 (1944) 652), with its
+/// cube: e x, 3 e x, and e x of the place of the centre. Where Coulomb's friction holds the share s
+/// of what it can, the part w of that is left which the stiffness has in the force: Mindlin's
+/// w = d ln Q/d ln u = 3/2 (1-s)^1/3 (1 - (1-s)^2/3)/s for s = Q/(mu N), and for
+/// s = M/(3 pi/16 mu N a) w = sqrt(1-s), within 0.1 of Lubkin's (J. Appl. Mech. 18 (1951) 183).
+/// What slips answers to the pressure, Q as N does; M has it times the radius, of which the edge's
+/// part B x³ counts thrice. So for what is turned or pushed aside once: right after the way has
+/// turned, shares are larger. e covers 95 % of drawn_presses.py --turned.
+///
 /// Model. `central` has nu = 1/4 in all its directions, whatever the rubber has: the rough force
-/// (Hertz on a layer, scaling_deviations above) of both, at one E.
+/// (Hertz on a layer, scaling_deviations above) of both, at one E. Its G is right, and so torsion;
+/// aside 8 G a/(2 - nu) is off by (2 - nu)/(2 - 1/4) - 1.
 ///
 /// Motion, in presses in time alone, at the largest speed of a program. Kelvin-Voigt damping adds
 /// tau dF/dt; the sway of the rubber and what scaled masses change are those of
@@ -140,6 +154,10 @@ class ForceEstimator {
 
   /// Nothing of samples without force, depth or contact radius.
   std::optional<ForceEstimate> of(const meshes::PressSample& sample) const;
+  /// Of a sample whose `estimate` that is: of its normal force, and with the edge of what sticks of
+  /// its lateral force and torque.
+  meshes::RelativeErrors errors(const meshes::PressSample& sample,
+                                const ForceEstimate& estimate) const;
   /// Before there is a press, at `depth` [m] > 0: with the radius of Hertz' patch, 0.95 to 1.15 of
   /// that of presses to 0.3 of the wall.
   std::optional<ForceEstimate> at(double depth) const;

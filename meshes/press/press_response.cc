@@ -92,15 +92,30 @@ bool PressSample::is_beside(const PressSample& other) const {
   return true;
 }
 
-void PressSample::set_errors(double relative) {
+void PressSample::set_errors(const RelativeErrors& relative) {
   constexpr double left = 1e-7;  // by solvers of what vanishes
   constexpr double coupling = 0.125;
-  if (!std::isfinite(relative)) relative = unknown;  // of no force
+  const auto share = [](double error) {
+    return std::isfinite(error) ? error : unknown;
+  };  // of none
   const double normal = std::abs(normal_force), aside = force().head<2>().norm(),
-               moment = torque().norm(), arm = contact_radius * (normal + aside);
-  force_error = relative * normal;
-  lateral_force_error = aside > left * normal ? relative * (aside + coupling * normal) : unknown;
-  torque_error = moment > left * arm ? relative * (moment + arm) : unknown;
+               moment = torque().norm(), arm = contact_radius * (normal + aside),
+               spin = is_given(spin_torque) ? std::min(std::abs(spin_torque), moment) : 0.0;
+  const double off = share(relative.normal), off_aside = share(relative.aside),
+               moved = spin > 0.0 ? relative.centre * spin / contact_radius : 0.0;
+  force_error = off * normal;
+  lateral_force_error = torque_error = unknown;
+  double more_aside = 0.0;
+  if (aside > left * normal) {
+    lateral_force_error = std::hypot(off_aside * aside, off * coupling * normal, moved);
+    more_aside = std::max(off_aside - off, 0.0) * aside + moved;
+  }
+  if (moment > left * arm) {
+    const bool pushed = torque().head<2>().norm() > left * arm;
+    const double across = pushed ? std::sqrt(moment * moment - spin * spin) + arm : 0.0;
+    torque_error =
+        std::hypot(share(relative.spin) * spin, off * across, relative.lever * more_aside);
+  }
 }
 
 void PressSample::set_pressure_error(double profile) {

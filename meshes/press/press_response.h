@@ -12,6 +12,15 @@
 
 namespace fingertip::meshes::inline press {
 
+/// Of a sample, what its errors follow from (PressSample::set_errors): none negative.
+struct RelativeErrors {
+  double normal = unknown;  ///< of the normal force
+  double aside = unknown;   ///< of the lateral force
+  double spin = unknown;    ///< of the spin torque
+  double centre = 0.0;      ///< of the centre of what sticks, over the contact's radius
+  double lever = 0.0;       ///< from the rod's endpoint to the contact [m]
+};
+
 /// One row of response.csv, SI. Signs: n points from the plane toward the rod; normal_force = F·n
 /// >= 0 in compression with F the sum of bond forces on the rod; torque about the rod's endpoint
 /// in the rod's starting axes, right-handed; indentation > 0 when pressed.
@@ -48,11 +57,21 @@ struct PressSample {
   Eigen::Vector3d torque() const { return {torque_x, torque_y, torque_z}; }
   /// Whether both stand at one place of one stage, to 1e-9 of it.
   bool is_beside(const PressSample& other) const;
-  /// From the `relative` error of a normal force N those of the lateral force Q and the torque T:
-  /// relative (|Q| + |N|/8), for what is off of the pressure pushes aside by
-  /// (1 - 2 nu)/(2 - 2 nu), 1/8 at nu = 0.43; relative (|T| + a (|N| + |Q|)), for its place is
-  /// known to that share of the contact's radius a. Unknown where symmetry leaves no Q or no T.
-  void set_errors(double relative);
+  /// From those of N, Q and M = spin_torque, a the contact's radius, T the torque, T'² = T² - M²;
+  /// sources that have nothing to do with each other, so that squares are added:
+  ///   lateral  aside |Q|; normal |N|/8, for what is off of the pressure pushes aside by
+  ///            (1 - 2 nu)/(2 - 2 nu), 1/8 at nu = 0.43; s = centre |M|/a, for a turn about another
+  ///            centre moves what sticks, by 8 G a/(2 - nu) (3 |M|/(16 G a³)) centre a, nearly
+  ///            that;
+  ///   torque   spin |M|; where something pushes aside normal (T' + a (|N| + |Q|)), for the place
+  ///   of
+  ///            the force is known to that share of a; and with the lever what Q is off beyond
+  ///            that, (aside - normal) |Q| + s.
+  /// Unknown where symmetry leaves no Q or no T.
+  void set_errors(const RelativeErrors& relative);
+  void set_errors(double relative) {
+    set_errors({.normal = relative, .aside = relative, .spin = relative});
+  }
   /// By what its force is off, and besides by `profile`, over the largest pressure; unknown where
   /// one of these is.
   void set_pressure_error(double profile);

@@ -30,15 +30,6 @@ void take_spacing(LoadedConfig& loaded, double divisor) {
   press.lattice.spacing = press.geometry.tip_radius / divisor;
 }
 
-/// From which the tolerance is to be kept [m]. Where no samples are asked for, the protocol has
-/// usual ones by now.
-double first_depth(const LoadedConfig& loaded) {
-  const meshes::PressProtocol& protocol = loaded.config.press.protocol;
-  const Entry& entry = loaded.entries.at("press.samples");
-  const bool asked = entry.given && entry.literal != find_key("press.samples")->preset;
-  return asked ? protocol.samples.front() : 0.1 * protocol.depth;
-}
-
 void choose_depth(LoadedConfig& loaded, const char* key, double& depth) {
   Entry& entry = loaded.entries.at(key);
   const double thickness = loaded.config.press.geometry.thickness();
@@ -49,6 +40,14 @@ void choose_depth(LoadedConfig& loaded, const char* key, double& depth) {
 }
 
 }  // namespace
+
+double first_kept_depth(const LoadedConfig& loaded) {
+  const meshes::PressProtocol& protocol = loaded.config.press.protocol;
+  const Entry& entry = loaded.entries.at("press.samples");
+  // Where none are asked for, the protocol has usual ones by now.
+  const bool asked = entry.given && entry.literal != find_key("press.samples")->preset;
+  return asked ? protocol.samples.front() : 0.1 * protocol.depth;
+}
 
 void choose_for_finger(LoadedConfig& loaded) {
   meshes::PressProtocol& protocol = loaded.config.press.protocol;
@@ -76,8 +75,9 @@ void choose_automatic_spacing(LoadedConfig& loaded) {
   const Config& config = loaded.config;
   if (!config.automatic_spacing) return;
   const lattice::PressSetup& press = config.press;
-  double divisor = divisor_of(press.geometry, estimator_of_cells(press).spacing_for(
-                                                  first_depth(loaded), config.spacing_tolerance));
+  double divisor = divisor_of(
+      press.geometry,
+      estimator_of_cells(press).spacing_for(first_kept_depth(loaded), config.spacing_tolerance));
   // Masses go with the cube.
   const double masses =
       meshes::expected_particle_count(press.geometry, press.geometry.tip_radius / divisor);
@@ -154,7 +154,7 @@ namespace {
 std::string accuracy_note(const LoadedConfig& loaded, double masses) {
   constexpr double many = 1e6;
   const Config& config = loaded.config;
-  const double depth = first_depth(loaded), wanted = config.spacing_tolerance;
+  const double depth = first_kept_depth(loaded), wanted = config.spacing_tolerance;
   const lattice::ModelKind model = config.press.lattice.model;
   const double error = estimator_of_cells(config.press).at(depth)->grid();  // of cells known
   std::string text;

@@ -16,6 +16,10 @@ void choose_for_finger(LoadedConfig& loaded);
 /// The configuration must be valid.
 void choose_automatic_spacing(LoadedConfig& loaded);
 
+/// From which depth on [m] an automatic spacing keeps lattice.tolerance: the first that is asked
+/// for, or a tenth of the depth.
+double first_kept_depth(const LoadedConfig& loaded);
+
 /// Where both are automatic the spacing of `of`, or the coarsest that this finger allows: for
 /// presses of one fit or one case.
 void keep_spacing(LoadedConfig& loaded, const LoadedConfig& of);

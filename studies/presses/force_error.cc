@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/cells/cubic_grid.h"
+#include "studies/config/finger_defaults.h"
 #include "studies/files/shown_units.h"
 #include "studies/presses/press_setup.h"
 
@@ -72,12 +74,50 @@ std::string error_words(const ForceErrorEntry& entry) {
 
 namespace {
 
+/// What makes the largest part of an error at `depth` [m] smaller than the tolerance.
+std::string remedy(const Config& config, const lattice::ForceEstimator& estimator, double depth) {
+  const lattice::ForceEstimate estimate = *estimator.at(depth);
+  if (estimate.model > std::max(estimate.grid(), estimate.motion))
+    return "lattice.model = hookean has no error of the model";
+  if (estimate.motion > estimate.grid())
+    return "press.mode = static or a smaller press.speed takes that of the motion away";
+  const double spacing = estimator.spacing_for(depth, config.spacing_tolerance);
+  if (!(spacing > 0.0)) return "no spacing keeps it there";
+  const double radius = config.press.geometry.tip_radius, divisor = std::ceil(radius / spacing);
+  return fmt::format(
+      "lattice.spacing = tip_radius/{:.0f} keeps it there, too, by some {:.2g} masses", divisor,
+      meshes::expected_particle_count(config.press.geometry, radius / divisor));
+}
+
+}  // namespace
+
+std::string beyond_tolerance(const LoadedConfig& loaded, const ForceErrorEntry& entry) {
+  const Config& config = loaded.config;
+  if (!config.automatic_spacing || !(entry.largest > config.spacing_tolerance)) return "";
+  const lattice::ForceEstimator estimator(config.press);
+  if (!estimator.at(entry.indentation)) return "";
+  const double from = first_kept_depth(loaded);
+  const std::string kept = entry.indentation < from ? fmt::format(", which is kept from {} on",
+                                                                  shown_units().length.text(from))
+                                                    : "";
+  return fmt::format("more than lattice.tolerance = {:.3g} %{}: {}",
+                     100.0 * config.spacing_tolerance, kept,
+                     remedy(config, estimator, entry.indentation));
+}
+
+namespace {
+
 /// How far the sample is off another one, and that one's own errors.
 void put_errors(PressSample& sample, const PressSample& truth) {
   sample.set_errors(truth.force_error / std::abs(truth.normal_force));
+  const auto own = [](double told, double otherwise) {
+    return std::isnan(told) ? otherwise : told;
+  };
   sample.force_error = truth.force_error + std::abs(sample.normal_force - truth.normal_force);
-  sample.lateral_force_error += (sample.force() - truth.force()).head<2>().norm();
-  sample.torque_error += (sample.torque() - truth.torque()).norm();
+  sample.lateral_force_error = own(truth.lateral_force_error, sample.lateral_force_error) +
+                               (sample.force() - truth.force()).head<2>().norm();
+  sample.torque_error =
+      own(truth.torque_error, sample.torque_error) + (sample.torque() - truth.torque()).norm();
 }
 
 }  // namespace
@@ -123,7 +163,7 @@ PressResponse with_estimated_error(const PressResponse& response,
   std::vector<PressSample> samples = response.samples();
   for (PressSample& sample : samples) {
     const auto estimate = estimator.of(sample);
-    sample.set_errors(estimate ? estimate->sum() : meshes::unknown);
+    sample.set_errors(estimate ? estimator.errors(sample, *estimate) : meshes::RelativeErrors());
   }
   return with_pressure_error(PressResponse(std::move(samples)), estimator);
 }

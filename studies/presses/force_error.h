@@ -32,6 +32,10 @@ ErrorSource estimated_source(lattice::ModelKind model, const std::string& why);
 /// "force error estimated, for ...: at most 2 %, at 1 mm".
 std::string error_words(const ForceErrorEntry& entry);
 
+/// Where an error is above lattice.tolerance, which an automatic spacing is to keep: from which
+/// depth on that is, and what makes the error smaller. Else empty.
+std::string beyond_tolerance(const LoadedConfig& loaded, const ForceErrorEntry& entry);
+
 /// `response` with force_error = |F - F_continuum| plus the continuum's own error [N], from the
 /// first depth of the continuum to its last, and of a lateral motion where both have the same
 /// displacement; unknown elsewhere. Between depths the continuum's force is interpolated, and its

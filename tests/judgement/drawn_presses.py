@@ -2,7 +2,7 @@
 """Draws lattice presses by a seed and judges the errors that they tell of their forces.
 
     tests/judgement/drawn_presses.py [--seed 2] [--presses 300] [--only CLASS ...]
-                                     [--auto | --edges | --aside | --fields | --continuum]
+                                     [--auto | --edges | --aside | --turned | --fields | --continuum]
                                      [--rows FILE] [--program fingertip]
 
 Each press is run twice: with `run.error = estimate`, which is judged, and with the continuum, which
@@ -18,6 +18,11 @@ go with the power 2.4 of the spacing.
 With --edges the same presses are made on cylinders and rounded edges, whose truth is a solid's.
 With --aside domes are tilted, slid by a quarter of the depth or meet a ball beside the axis, those in
 time under the PID controller: the errors of lateral force and torque are judged as well.
+
+With --turned domes are pressed and then, at full depth, turned or pushed aside, some of them tilted,
+under stick or Coulomb friction, at rest: it is the errors of torque and lateral force after that
+motion that are judged. With --continuum besides it is those that the continuum tells of a press to 2
+or 0.5 %, by a continuum to a tenth of it (a solid's to a third).
 
 With --fields it is the error of the pressures, point by point, that is judged, in those of the
 presses whose truth is a meridian's.
@@ -117,9 +122,9 @@ def rows_of(file):
 
 
 def place_of(row):
-    """Depth and lateral displacement [nm]."""
-    return (round(1e9 * float(row["indentation [m]"])),
-            round(1e9 * float(row.get("lateral_displacement [m]") or 0.0)))
+    """Depth and lateral displacement [nm], twist [nrad]."""
+    return tuple(round(1e9 * float(row.get(name) or 0.0))
+                 for name in ("indentation [m]", "lateral_displacement [m]", "twist [rad]"))
 
 
 def truth_of(sets, meridian):
@@ -196,6 +201,45 @@ def judge_automatic(samples, presses):
     return kept >= COVERED and finer <= FINER and 2 * len(of) >= presses
 
 
+def draw_turned(numbers):
+    """One press of a dome that is turned or pushed aside at full depth: its classes and its
+    settings. Most are turned and straight, whose truth is a meridian's."""
+    way = numbers.choice(["turned"] * 8 + ["slid"] * 2 + ["turned, tilted", "slid, tilted"])
+    model = numbers.choice(["hookean", "hookean", "hookean", "central"])
+    contact = numbers.choice(["stick", "stick", "coulomb"])
+    body, ball = numbers.choice(["plane", "ball"]), 10.0 * log_uniform(numbers, 0.4, 5)
+    ratio, rod = numbers.uniform(0.25, 0.49), 10.0 * numbers.uniform(0.3, 0.7)
+    share, twist = numbers.uniform(0.05, 0.3), numbers.uniform(1, 30)
+    aside, tilt, friction = (numbers.uniform(*range_) for range_ in ((0.05, 0.5), (1, 6), (0.2, 1)))
+    flat, wall = way == "turned", 10.0 - rod
+    cells = round(log_uniform(numbers, 5, 12 if flat else 8))
+    cells = max(cells, math.ceil(20.0 / wall * 1.02))
+    tolerance = numbers.choice([0.02, 0.005] if flat else [0.04, 0.02])
+    if not flat:  # the solid is to take minutes
+        body, rod = "plane", min(rod, 6.0)
+        wall = 10.0 - rod
+    sets = [f"lattice.model={model}", f"press.contact={contact}", YOUNG,
+            f"rubber.poissons_ratio={ratio:.4f}", "press.mode=static",
+            f'geometry.rod_radius="{rod:.3f} mm"', f"lattice.spacing=tip_radius/{cells}",
+            f'press.samples=["{share * wall:.4f} mm"]', "press.lateral_samples=1"]
+    if contact == "coulomb":
+        sets.append(f"press.friction={friction:.3f}")
+    if body == "ball":
+        sets += ["obstacle.shape=sphere", f'obstacle.radius="{ball:.3f} mm"']
+    if "turned" in way:
+        sets.append(f'press.twist="{twist:.2f} deg"')
+    else:
+        sets += [f'press.lateral="{aside * share * wall:.4f} mm"', "press.lateral_path=after"]
+    if "tilted" in way:
+        sets.append(f'press.tilt="{tilt:.2f} deg"')
+    if not flat:
+        sets.append("reference.max_unknowns=200000")
+    classes = [f"{contact}, {way}", model, f"{contact}, {body}",
+               f"{contact}, nu {'<' if ratio < 0.4 else '>='} 0.4"]
+    return classes, sets, {"flat": flat, "tolerance": tolerance, "spacing": 1e-2 / cells,
+                           "wall": 1e-3 * wall, "ratio": ratio, "moved": True}
+
+
 def draw_continuum(numbers):
     """One press of the continuum: its classes and its settings."""
     kind = numbers.choice(["meridian", "meridian", "meridian", "meridian", "transient", "tilted",
@@ -246,9 +290,11 @@ def measure_continuum(bench, number, drawn):
     """As measure(), of the continuum's own error."""
     classes, sets, about = drawn
     out = bench.folder / f"press{number}"
+    sets = [s for s in sets if not s.startswith(("lattice.", "reference.fields"))]
     tables, tolerance = [], about["tolerance"]
     for folder in (out, out / "truth"):
-        run = bench.run("reference", [*sets, f"reference.tolerance={tolerance:.3g}"], folder)
+        run = bench.run("reference", [*sets, "reference.fields=false",
+                                      f"reference.tolerance={tolerance:.3g}"], folder)
         if run.returncode not in (0, 3):
             return run.stderr.strip().splitlines()[:3]
         tables.append(rows_of(folder / "response.csv"))
@@ -259,15 +305,10 @@ def measure_continuum(bench, number, drawn):
         tolerance = max(1e-4, min(tolerance, *known) * (0.1 if about["flat"] else 0.3))
     found = []
     for row, true in zip(*tables):
-        force, right = float(row["normal_force [N]"]), float(true["normal_force [N]"])
-        bar = float(row["force_error [N]"] or "nan")
+        force, bar = float(row["normal_force [N]"]), float(row["force_error [N]"] or "nan")
         if not force > 0.0 or math.isnan(bar):
             continue
-        bar /= force
-        found.append(about | {"press": number, "classes": classes, "force": force, "truth": right,
-                              "depth": float(row["indentation [m]"]),
-                              "slack": float(true["force_error [N]"] or 0.0) / force,
-                              "error": abs(force - right) / force, "bar": bar})
+        found += judged(row, true, about | {"press": number, "classes": classes})
     return found
 
 
@@ -276,7 +317,7 @@ def measure(bench, number, drawn):
     there are none."""
     classes, sets, about = drawn
     out = bench.folder / f"press{number}"
-    strain = "linear" if classes[0] in ("hookean", "central") else "finite"
+    strain = "linear" if classes[0] in ("hookean", "central") or "moved" in about else "finite"
     press = bench.run("press", [*sets, "run.error=estimate", "run.threads=1"], out)
     if press.returncode != 0:
         return press.stderr.strip().splitlines()[:3]
@@ -292,18 +333,24 @@ def measure(bench, number, drawn):
         true = known.get(place_of(row))
         if not true or not true["force_error [N]"]:  # a truth of unknown quality judges nothing
             continue
-        force, right = float(row["normal_force [N]"]), float(true["normal_force [N]"])
-        if not force > 0.0:
-            continue
-        found.append(about | {"press": number, "classes": classes, "force": force, "truth": right,
-                              "depth": float(row["indentation [m]"]),
-                              "radius": float(row["contact_radius [m]"] or "nan"),
-                              "slack": float(true["force_error [N]"]) / force,
-                              "error": abs(force - right) / force,
-                              "bar": float(row["force_error [N]"] or "nan") / force})
-        found += aside(row, true, found[-1], "lateral_force", "lateral force", "xy", "N")
-        found += aside(row, true, found[-1], "torque", "torque", "xyz", "N m")
+        if float(row["normal_force [N]"]) > 0.0:
+            found += judged(row, true, about | {"press": number, "classes": classes})
     return found
+
+
+def judged(row, true, about):
+    """The error of a row's force, and those of the vectors that symmetry leaves."""
+    force, right = float(row["normal_force [N]"]), float(true["normal_force [N]"])
+    sample = about | {"force": force, "truth": right, "depth": float(row["indentation [m]"]),
+                      "radius": float(row["contact_radius [m]"] or "nan"),
+                      "slack": float(true["force_error [N]"] or 0.0) / force,
+                      "error": abs(force - right) / force,
+                      "bar": float(row["force_error [N]"] or "nan") / force}
+    vectors = aside(row, true, sample, "lateral_force", "lateral force", "xy", "N") + \
+        aside(row, true, sample, "torque", "torque", "xyz", "N m")
+    if "moved" not in about:
+        return [sample, *vectors]
+    return vectors if any(place_of(row)[1:]) else []
 
 
 def rings(points):
@@ -367,19 +414,21 @@ def aside(row, true, sample, column, name, axes, unit):
     bar = float(row.get(f"{column}_error [{unit}]") or "nan")
     if math.isnan(bar):
         return []
-    off = math.hypot(*(float(row[f"{column}_{a} [{unit}]"]) - float(true[f"{column}_{a} [{unit}]"])
-                       for a in axes))
-    own = float(true.get(f"{column}_error [{unit}]") or "nan")
-    return [sample | {"classes": [name], "error": off / sample["force"],
-                      "bar": bar / sample["force"],
-                      "slack": 0.0 if math.isnan(own) else own / sample["force"]}]
+    own, right = ([float(table[f"{column}_{a} [{unit}]"]) for a in axes] for table in (row, true))
+    slack = float(true.get(f"{column}_error [{unit}]") or "nan")
+    classes = [f"{name}: {c}" for c in sample["classes"]] if "moved" in sample else []
+    return [sample | {"classes": [name, *classes], "error": math.dist(own, right) / sample["force"],
+                      "bar": bar / sample["force"], "size": math.hypot(*own) / sample["force"],
+                      "true size": math.hypot(*right) / sample["force"],
+                      "spin": float(row["spin_torque [N m]"] or "nan") / sample["force"],
+                      "slack": 0.0 if math.isnan(slack) else slack / sample["force"]}]
 
 
 def judge(samples, name, widest=WIDEST):
     covered = statistics.mean(s["error"] <= s["bar"] + s["slack"] for s in samples)
     width = statistics.median(s["bar"] / max(s["error"], 1e-9) for s in samples)
     good = len(samples) < FEWEST or (covered >= COVERED and width <= widest)
-    print(f"{name:14} {len(samples):5} samples, {100 * covered:5.1f} % covered, "
+    print(f"{name:32} {len(samples):5} samples, {100 * covered:5.1f} % covered, "
           f"median bar/error {width:5.2f}{'' if good else '   NOT GOOD'}")
     return good
 
@@ -395,11 +444,12 @@ def main():
     mode.add_argument("--edges", action="store_true")
     mode.add_argument("--aside", action="store_true")
     mode.add_argument("--fields", action="store_true")
-    mode.add_argument("--continuum", action="store_true")
+    mode.add_argument("--turned", action="store_true")
+    parser.add_argument("--continuum", action="store_true")
     parser.add_argument("--rows")
     asked = parser.parse_args()
     numbers = random.Random(asked.seed)
-    draw_one = draw_continuum if asked.continuum else draw
+    draw_one = draw_turned if asked.turned else draw_continuum if asked.continuum else draw
     measure_one = measure_continuum if asked.continuum else \
         measure_fields if asked.fields else measure
     drawn = [draw_one(numbers) for _ in range(asked.presses)]
@@ -425,9 +475,11 @@ def main():
     else:
         widest = math.inf if asked.continuum else WIDEST
         vectors = ("lateral force", "torque")
-        good = judge([s for s in samples if s["classes"][0] not in vectors], "all", widest)
+        good = asked.turned or judge([s for s in samples if s["classes"][0] not in vectors], "all",
+                                     widest)
         for name in sorted({c for s in samples for c in s["classes"]}):
-            width = math.inf if name in vectors else widest
+            # Where only a tilt pushes aside, vectors are small beside what the bars are made of.
+            width = math.inf if name in vectors and not asked.turned else widest
             good = judge([s for s in samples if name in s["classes"]], name, width) and good
     print(f"{len(drawn)} presses, {refused} without forces")
     return 0 if good and refused == 0 else 1

@@ -303,6 +303,8 @@ int run_press(const CommandLine& line) {
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
       print_response(response, setup.protocol);
       if (error) fmt::print("{}\n", error_words(*error));
+      if (const std::string beyond = error ? beyond_tolerance(loaded, *error) : ""; !beyond.empty())
+        fmt::print("{}\n", beyond);
       if (!felt.empty()) fmt::print("{}\n", taxel_words(felt));
       print_press_facts(summary, result.reused);
       print_sources(loaded);

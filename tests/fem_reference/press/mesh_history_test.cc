@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -176,6 +177,59 @@ TEST(MeshHistory, ForcesThatAgreeByChanceGetTheTypicalError) {
   EXPECT_NEAR(history.error(1).value, 3.0 * single / 2.0, 1e-12);
   EXPECT_NEAR(history.error(2).value, 5.0 * single, 1e-12);
   EXPECT_EQ(history.error(1).convergence, fem_reference::MeshConvergence::unknown);
+}
+
+/// Under stick the radius of what sticks jumps with the nodes, and a torque with it in the first
+/// order: refinement by 1.5 tells less of it than of a force.
+TEST(MeshHistory, VectorsHaveNoiseOfTheFirstOrder) {
+  MeshHistory history;
+  const auto add = [&](double spacing, double force, double aside, double turn) {
+    history.start_mesh(mesh(std::size_t(1.0 / spacing)));
+    PressState next = state(1e-3, force, spacing);
+    next.lateral_force_x = aside;
+    next.lateral_force_y = 0.0;
+    next.torque_x = 0.0;
+    next.torque_y = 0.75 * turn;
+    next.torque_z = turn;
+    history.add(next);
+  };
+  add(coarse, 1.0001, 0.25, 0.020);
+  add(medium, 1.0, 0.22, 0.018);
+  add(fine, 1.0, 0.21, 0.017);
+  const auto decay_of_noise = [](double coarser) { return std::pow(coarser / fine, 0.75) - 1.0; };
+  const auto told = [&](double to_medium, double to_coarse) {
+    return 1.25 * std::max(to_medium / decay_of_noise(medium), to_coarse / decay_of_noise(coarse));
+  };
+  const PressState best = history.best().front();
+  EXPECT_NEAR(best.lateral_force_error, told(0.01, 0.04), 1e-12);
+  EXPECT_NEAR(best.torque_error, 1.25 * told(0.001, 0.003), 1e-12) << "of a length of 5/4";
+  EXPECT_LT(best.force_error, 1e-3) << "nothing of it goes over to the force";
+}
+
+/// Radii of what sticks that are off by a share of the node spacing which meshes have in common,
+/// and by another that each draws anew: of torques that go as a³ 95 % are within what three meshes
+/// tell.
+TEST(MeshHistory, TorquesOfRadiiThatJumpFromNodeToNodeAreWithinTheirErrors) {
+  std::mt19937 numbers(4);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int within = 0;
+  constexpr int count = 2000;
+  for (int n = 0; n < count; ++n) {
+    MeshHistory history;
+    double spacing = 2e-4, last = 0.0;
+    const double bias = uniform(numbers) - 0.5;
+    for (int m = 0; m < 3; ++m, spacing /= 1.2 + 0.4 * uniform(numbers)) {
+      const double radius = 3e-3 + spacing * (bias + uniform(numbers) - 0.5);
+      last = std::pow(radius / 3e-3, 3);
+      history.start_mesh(mesh(std::size_t(1e3) << m));
+      PressState next = state(1e-3, 1.0, spacing);
+      next.lateral_force_x = next.lateral_force_y = next.torque_x = next.torque_y = 0.0;
+      next.torque_z = last;
+      history.add(next);
+    }
+    within += std::abs(last - 1.0) <= history.best().front().torque_error;
+  }
+  EXPECT_GE(within, 0.95 * count);
 }
 
 /// What no refinement touches, the indicators show.

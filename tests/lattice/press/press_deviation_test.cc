@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -212,6 +215,115 @@ TEST(ForceEstimate, OfMotionVanishesWithTheSpeed) {
   const double scaled = at_speed(0.01);
   setup.integrator = Integrator::symplectic_euler;
   EXPECT_GT(scaled, at_speed(0.01));
+}
+
+namespace {
+
+constexpr double push = 0.1, patch = 3e-3;  // of touching()
+
+meshes::RelativeErrors errors_of(const PressSetup& setup, double spin = 0.0, double aside = 0.0) {
+  meshes::PressSample sample = touching(1e-3, patch);
+  sample.spin_torque = spin;
+  sample.lateral_force_x = aside;
+  sample.lateral_force_y = 0.0;
+  const lattice::ForceEstimator estimator(setup);
+  return estimator.errors(sample, estimator.of(sample).value());
+}
+
+PressSetup of_contact(meshes::ContactMode contact, double friction = 0.5) {
+  PressSetup setup;
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
+  setup.protocol.contact = contact;
+  setup.protocol.friction = friction;
+  return setup;
+}
+
+}  // namespace
+
+/// Torsion goes with the cube of the radius, the stiffness aside with the radius itself.
+TEST(ForceEstimate, OfWhatSticksIsInTheFirstOrderOfTheSpacing) {
+  const PressSetup smooth = of_contact(meshes::ContactMode::frictionless);
+  const meshes::RelativeErrors free = errors_of(smooth);
+  EXPECT_EQ(free.normal, estimate_of(smooth).sum());
+  EXPECT_EQ(free.aside, free.normal);
+  EXPECT_EQ(free.spin, free.normal);
+  EXPECT_EQ(free.centre, 0.0);
+  EXPECT_NEAR(free.lever, 4e-2, 1e-12) << "a radius and the rod's length";
+  PressSetup setup = of_contact(meshes::ContactMode::stick);
+  const double edge = errors_of(setup).centre;
+  for (const double finer : {1.0, 2.0, 4.0}) {
+    setup.lattice.spacing = PressSetup().lattice.spacing / finer;
+    const meshes::RelativeErrors stick = errors_of(setup);
+    EXPECT_EQ(stick.normal, estimate_of(setup).sum());
+    EXPECT_NEAR(stick.centre, edge / finer, 1e-12);
+    EXPECT_NEAR(stick.aside - stick.normal, edge / finer, 1e-12);
+    EXPECT_NEAR(stick.spin - stick.normal, 3.0 * edge / finer, 1e-12);
+  }
+}
+
+/// What friction holds answers to a radius, what slips to the normal force: of a turn Lubkin's
+/// table (of Hertz's pressure, by quadrature), of a push aside Mindlin's closed form.
+TEST(ForceEstimate, OfWhatSlipsIsThatOfTheNormalForce) {
+  constexpr double friction = 0.4, most = 3.0 * std::numbers::pi / 16.0 * friction * push * patch;
+  PressSetup setup = of_contact(meshes::ContactMode::coulomb, friction);
+  // What slips all over, and a little more by round-off.
+  const auto of_slip = [&] { return errors_of(setup, 1.01 * most).spin - errors_of(setup).normal; };
+  const double all = errors_of(setup).centre, normal = errors_of(setup).normal, slip = of_slip();
+  ASSERT_GT(all, 0.0);
+  EXPECT_GT(slip, 0.0);
+  EXPECT_LT(slip, 3.0 * all);
+  EXPECT_NEAR(errors_of(setup, 0.0, 1.01 * friction * push).aside, normal, 1e-12);
+  struct Turned {
+    double torque, twist;  // over the largest torque; G a² twist/(mu N)
+  };
+  constexpr std::array<Turned, 6> lubkin{{{0.299, 0.0385},
+                                          {0.527, 0.0794},
+                                          {0.696, 0.1234},
+                                          {0.816, 0.1716},
+                                          {0.897, 0.2257},
+                                          {0.979, 0.3656}}};
+  for (std::size_t i = 1; i < lubkin.size(); ++i) {
+    const Turned &before = lubkin[i - 1], &after = lubkin[i];
+    const double held =
+                     std::log(after.torque / before.torque) / std::log(after.twist / before.twist),
+                 between = std::sqrt(before.torque * after.torque);
+    const meshes::RelativeErrors errors = errors_of(setup, -between * most);
+    EXPECT_NEAR((errors.spin - normal - slip) / (3.0 * all - slip), held, 0.1) << between;
+    EXPECT_NEAR(errors.centre / all, held, 0.1) << between;
+  }
+  for (const double share : {0.05, 0.3, 0.6, 0.9, 0.99}) {
+    const auto displacement = [](double q) { return 1.0 - std::pow(1.0 - q, 2.0 / 3.0); };
+    const double step = 1e-6, held = 2.0 * step /
+                                     std::log(displacement(share * std::exp(step)) /
+                                              displacement(share * std::exp(-step)));
+    const meshes::RelativeErrors errors = errors_of(setup, 0.0, -share * friction * push);
+    EXPECT_NEAR((errors.aside - normal) / all, held, 1e-6) << share;
+  }
+  setup.lattice.spacing /= 2.0;
+  EXPECT_NEAR(of_slip(), slip / 8.0, 1e-12);
+}
+
+/// The continuum on its meridian, `fingertip reference` with reference.tolerance = 5e-4, E 20 kPa,
+/// nu 0.49, pressed by 1 mm and turned by 30 degrees at small strain: 598.6 uN m.
+TEST(ForceEstimate, OfATurnThatSticksReachesTheContinuum) {
+  constexpr double truth = 598.6e-6;
+  for (const double per_radius : {7.0, 8.0, 9.0}) {
+    PressSetup setup = presses::setup_of({.model = ModelKind::hookean,
+                                          .per_radius = per_radius,
+                                          .mode = meshes::DriveMode::equilibrium,
+                                          .samples = {1e-3}});
+    setup.rubber.youngs_modulus = 2e4;
+    setup.rubber.shear_modulus = 2e4 / (2.0 * 1.49);
+    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+    setup.protocol.contact = meshes::ContactMode::stick;
+    setup.protocol.twist = std::numbers::pi / 6.0;
+    setup.protocol.lateral_samples = 1;
+    meshes::PressSample sample = lattice::run_static_press(setup).response.samples().back();
+    const lattice::ForceEstimator estimator(setup);
+    sample.set_errors(estimator.errors(sample, estimator.of(sample).value()));
+    EXPECT_NEAR(std::abs(sample.torque_z), truth, sample.torque_error) << per_radius;
+    EXPECT_LT(sample.torque_error, 0.3 * truth) << per_radius;
+  }
 }
 
 TEST(ForceEstimate, IsNoneOfPublishedSpringsAndOfNoContact) {

@@ -207,13 +207,50 @@ TEST(PressResponse, ErrorsAreThoseOfAForceAndItsPlace) {
                      .contact_radius = 1e-3};
   sample.set_errors(0.1);
   EXPECT_NEAR(sample.force_error, 0.3, 1e-15);
-  EXPECT_NEAR(sample.lateral_force_error, 0.1 * (4.0 + 3.0 / 8.0), 1e-15);
+  EXPECT_NEAR(sample.lateral_force_error, 0.1 * std::hypot(4.0, 3.0 / 8.0), 1e-15);
   EXPECT_NEAR(sample.torque_error, 0.1 * (0.02 + 0.007), 1e-15);
   sample.lateral_force_y = 1e-10;
   sample.torque_x = 1e-13;
   sample.set_errors(0.1);
   EXPECT_TRUE(std::isnan(sample.lateral_force_error));
   EXPECT_TRUE(std::isnan(sample.torque_error));
+}
+
+/// A disc that sticks, of another radius and about another centre: closed forms before and after.
+TEST(PressResponse, ErrorsOfWhatSticksAreThoseOfItsRadiusAndItsCentre) {
+  constexpr double shear_modulus = 1e4, ratio = 0.4, twist = 0.1, way = 1e-3, radius = 2e-3,
+                   off = 1e-4, height = 0.02;
+  const auto of_radius = [&](double e) {
+    return RelativeErrors{.normal = 0.0, .aside = e, .spin = 3.0 * e, .lever = height};
+  };
+  const auto aside = [](double a) { return 8.0 * shear_modulus * a * way / (2.0 - ratio); };
+  const auto turn = [](double a) { return 16.0 / 3.0 * shear_modulus * std::pow(a, 3) * twist; };
+  PressSample turned{.normal_force = 1.0,
+                     .lateral_force_x = 0.0,
+                     .lateral_force_y = 0.0,
+                     .torque_x = 0.0,
+                     .torque_y = 0.0,
+                     .torque_z = turn(radius),
+                     .contact_radius = radius,
+                     .spin_torque = -turn(radius)};
+  turned.set_errors(of_radius(off));
+  EXPECT_EQ(turned.force_error, 0.0);
+  EXPECT_NEAR(turned.torque_error, turn((1.0 + off) * radius) - turn(radius),
+              2e-4 * turned.torque_error);
+  PressSample slid = turned;
+  slid.lateral_force_x = aside(radius);
+  slid.torque_y = height * aside(radius);
+  slid.torque_z = slid.spin_torque = 0.0;
+  slid.set_errors(of_radius(off));
+  EXPECT_NEAR(slid.lateral_force_error, aside((1.0 + off) * radius) - aside(radius), 1e-9);
+  EXPECT_NEAR(slid.torque_error, height * slid.lateral_force_error, 1e-9);
+  // What is turned about a place beside its centre goes aside, and that has a moment.
+  PressSample beside = turned;
+  beside.lateral_force_y = 1e-3;
+  beside.set_errors({.normal = 0.0, .aside = 0.0, .spin = 0.0, .centre = 0.05, .lever = height});
+  const double moved = 8.0 * shear_modulus * radius / (2.0 - ratio) * twist * 0.05 * radius;
+  EXPECT_NEAR(beside.lateral_force_error, moved, 0.1 * moved);
+  EXPECT_NEAR(beside.torque_error, height * beside.lateral_force_error, 1e-12);
 }
 
 TEST(PressResponse, InterpolationPassesThroughSamplesAndOrigin) {

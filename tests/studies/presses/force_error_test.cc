@@ -76,7 +76,7 @@ TEST(ForceError, OfWhatPullsAsideIsAVectors) {
   const PressResponse continuum({tilted(0.4, 0.05, 0.02)}), lattice({tilted(0.3, 0.06)});
   const PressSample found = with_force_error(lattice, continuum).samples().front();
   EXPECT_NEAR(found.force_error, 0.02, 1e-12);
-  EXPECT_NEAR(found.lateral_force_error, 0.1 + 0.01 * (0.3 + 2.0 / 8.0), 1e-12);
+  EXPECT_NEAR(found.lateral_force_error, 0.1 + 0.01 * std::hypot(0.3, 2.0 / 8.0), 1e-12);
   EXPECT_NEAR(found.torque_error, 0.01 + 0.01 * (0.06 + 1e-3 * 2.3), 1e-12);
   // Of no force there is no share.
   PressSample nothing = tilted(0.4, 0.05, 0.02);
@@ -146,4 +146,27 @@ TEST(ForceError, OfAnEstimateIsAPartOfTheForceWhereThereIsContact) {
   EXPECT_DOUBLE_EQ(
       with_pressure_error(PressResponse({touches}), estimator).samples()[0].pressure_error,
       500.0 * (0.005 + estimate.profile));
+}
+
+/// A bar above what was asked for says so, from where on that is kept, and what would keep it.
+TEST(ForceError, AboveTheToleranceSaysWhatMakesItSmaller) {
+  const auto words = [](const std::vector<std::string>& sets, double largest, double depth) {
+    return beyond_tolerance(config_of(sets), {"estimated", largest, depth});
+  };
+  const std::string few = words({"press.mode=static"}, 0.05, 1e-4);
+  EXPECT_TRUE(says(few, {"lattice.tolerance = 2 %", "from 0.3 mm on", "tip_radius/"})) << few;
+  EXPECT_EQ(words({"press.mode=static"}, 0.019, 1e-4), "");
+  EXPECT_EQ(words({"press.mode=static", "lattice.spacing=tip_radius/8"}, 0.05, 1e-4), "")
+      << "nobody has asked for 2 %";
+  // The spacing that it names does keep the tolerance there.
+  const std::size_t begin = few.find("tip_radius/"), end = few.find(' ', begin);
+  const LoadedConfig finer =
+      config_of({"press.mode=static", "lattice.spacing=" + few.substr(begin, end - begin)});
+  const auto at = [](const LoadedConfig& loaded) {
+    return fingertip::lattice::ForceEstimator(loaded.config.press).at(1e-4)->grid();
+  };
+  EXPECT_LE(at(finer), 0.02);
+  EXPECT_GT(at(config_of({"press.mode=static"})), 0.02);
+  const std::string fast = words({"press.speed=10 cm/s", "press.mode=quasi-static"}, 0.5, 1e-4);
+  EXPECT_TRUE(says(fast, {"press.mode = static"})) << fast;
 }
