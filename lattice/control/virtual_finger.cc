@@ -59,7 +59,8 @@ Measurement VirtualFinger::read() const {
   std::vector<meshes::ContactPoint> field = finger_->contact_field();
   for (meshes::ContactPoint& point : field) {
     point.rest = from_plane * point.rest;
-    for (meshes::Vector3* vector : {&point.shear, &point.normal}) *vector = to_rod * *vector;
+    for (meshes::Vector3* vector : {&point.place, &point.shear, &point.normal})
+      *vector = to_rod * *vector;
   }
   m.taxels = taxel_readings(field, setup_.skin);
   return m;

@@ -8,6 +8,7 @@
 
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
+#include "meshes/press/footprint_mean.h"
 
 namespace fingertip::meshes::inline press {
 
@@ -24,21 +25,6 @@ constexpr int finest_rings = 24;     ///< of the places over which a load is spr
 
 Matrix3d turn(const Vector3& from, const Vector3& to) {
   return Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
-}
-
-/// What two discs share whose middles are this far apart [m²].
-double shared_area(double distance, double a, double b) {
-  if (distance >= a + b) return 0.0;
-  const double smaller = std::min(a, b);
-  if (distance <= std::abs(a - b)) return pi * smaller * smaller;
-  // Half the angle under which the common chord is seen from each middle.
-  const auto half_angle = [distance](double own, double other) {
-    const double cosine =
-        (distance * distance + own * own - other * other) / (2.0 * distance * own);
-    return std::acos(std::clamp(cosine, -1.0, 1.0));
-  };
-  const double at_a = half_angle(a, b), at_b = half_angle(b, a);
-  return a * a * (at_a - 0.5 * std::sin(2.0 * at_a)) + b * b * (at_b - 0.5 * std::sin(2.0 * at_b));
 }
 
 /// The mean over a disc of `radius` around the place `to`, seen from a load on the surface, of the
@@ -130,36 +116,58 @@ std::vector<Taxel> taxel_rings(const Shape& shape, int rings, int per_ring, doub
   return taxels;
 }
 
-std::vector<TaxelReading> taxel_readings(std::span<const ContactPoint> points,
-                                         const TaxelSkin& skin, const Matrix3d& axes) {
+namespace {
+
+/// What a taxel reads, and how well the points tell it.
+struct Told {
+  TaxelReading reading;
+  double error = 0.0, spacing = 0.0;  ///< FootprintMean
+};
+
+Vector3 conducted_to(std::span<const ContactPoint> points, const Vector3& place,
+                     const Matrix3d& own, double depth, double footprint) {
+  Vector3 stress = Vector3::Zero();  // along u, v and into the finger
+  for (const ContactPoint& point : points) {
+    const double radius = std::max(std::sqrt(point.area / pi), point.reach);
+    const Vector3 chord = own.transpose() * (place - point.rest);
+    Vector3 load = (turn(own.col(2), -point.normal) * own).transpose() * point.force();
+    load.z() *= -1.0;
+    Vector3 to = Vector3::Zero();
+    if (const double seen = chord.head<2>().norm(); seen > 0.0)
+      to.head<2>() = chord.norm() / seen * chord.head<2>();
+    else
+      to.x() = chord.norm();  // through the finger
+    to.z() = depth;
+    stress += conducted(load, to, std::hypot(footprint, radius));
+  }
+  return stress;
+}
+
+std::vector<Told> told(std::span<const ContactPoint> points, const TaxelSkin& skin,
+                       const Matrix3d& axes) {
   const double footprint = 0.5 * skin.footprint;
-  std::vector<TaxelReading> readings;
+  const FootprintMeans field(points);
+  std::vector<Told> all;
   for (const Taxel& taxel : skin.taxels) {
     const Matrix3d own = axes * turn(Vector3::UnitZ(), taxel.normal);
-    const Vector3 place = axes * taxel.place, normal = axes * taxel.normal;
-    Vector3 stress = Vector3::Zero();  // along u, v and into the finger
-    for (const ContactPoint& point : points) {
-      const double radius = std::max(std::sqrt(point.area / pi), point.reach);
-      const Vector3 chord = own.transpose() * (place - point.rest);
-      const double distance = chord.norm();
-      if (skin.depth == 0.0 && distance >= footprint + radius) continue;
-      Vector3 load = (turn(normal, -point.normal) * own).transpose() * point.force();
-      load.z() *= -1.0;
-      if (skin.depth == 0.0) {
-        stress += shared_area(distance, footprint, radius) /
-                  (pi * footprint * footprint * pi * radius * radius) * load;
-        continue;
-      }
-      Vector3 to = Vector3::Zero();
-      if (const double seen = chord.head<2>().norm(); seen > 0.0)
-        to.head<2>() = distance / seen * chord.head<2>();
-      else
-        to.x() = distance;  // through the finger
-      to.z() = skin.depth;
-      stress += conducted(load, to, std::hypot(footprint, radius));
+    const Vector3 place = axes * taxel.place;
+    if (skin.depth > 0.0) {
+      const Vector3 stress = conducted_to(points, place, own, skin.depth, footprint);
+      all.push_back({{stress.z(), stress.x(), stress.y()}, unknown, unknown});
+      continue;
     }
-    readings.push_back({stress.z(), stress.x(), stress.y()});
+    const FootprintMean mean = field.over(place, own, footprint);
+    all.push_back({{mean.pressure, mean.shear.x(), mean.shear.y()}, mean.error, mean.spacing});
   }
+  return all;
+}
+
+}  // namespace
+
+std::vector<TaxelReading> taxel_readings(std::span<const ContactPoint> points,
+                                         const TaxelSkin& skin, const Matrix3d& axes) {
+  std::vector<TaxelReading> readings;
+  for (const Told& taxel : told(points, skin, axes)) readings.push_back(taxel.reading);
   return readings;
 }
 
@@ -170,18 +178,34 @@ double felt_force(std::span<const TaxelRow> sample) {
 }
 
 std::vector<TaxelRow> taxel_rows(std::span<const ContactPoint> field, const TaxelSkin& skin,
-                                 const Matrix3d& axes) {
+                                 const Matrix3d& axes, const FieldQuality& quality) {
   std::vector<TaxelRow> rows;
   for (const auto& sample : samples_of(field)) {
-    const std::vector<TaxelReading> readings = taxel_readings(sample, skin, axes);
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-      const TaxelReading& reading = readings[i];
-      rows.push_back({sample[0].sample, sample[0].indentation, int(i + 1), skin.taxels[i].place,
-                      skin.taxels[i].area, reading.normal_stress, reading.shear_u,
-                      reading.shear_v});
+    const auto row = std::size_t(sample[0].sample);
+    const double known =
+        row <= quality.pressure_errors.size() ? quality.pressure_errors[row - 1] : unknown;
+    const std::vector<Told> taxels = told(sample, skin, axes);
+    for (std::size_t i = 0; i < taxels.size(); ++i) {
+      const Taxel& taxel = skin.taxels[i];
+      TaxelRow& felt = rows.emplace_back(
+          TaxelRow{sample[0].sample, sample[0].indentation, int(i + 1), taxel.place, taxel.area});
+      felt.normal_stress = taxels[i].reading.normal_stress;
+      felt.shear_u = taxels[i].reading.shear_u;
+      felt.shear_v = taxels[i].reading.shear_v;
+      const bool touches = taxels[i].spacing > 0.0;
+      felt.error =
+          touches && std::isfinite(known) ? std::hypot(known, taxels[i].error) : taxels[i].error;
+      felt.spacing = touches ? std::max(taxels[i].spacing, quality.spacing) : taxels[i].spacing;
     }
   }
   return rows;
+}
+
+double coarsest_spacing(std::span<const TaxelRow> sample) {
+  double most = 0.0;
+  for (const TaxelRow& row : sample)
+    if (row.spacing > most) most = row.spacing;
+  return most;
 }
 
 }  // namespace fingertip::meshes::inline press

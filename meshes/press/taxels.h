@@ -51,11 +51,10 @@ std::vector<Taxel> taxel_rings(const Shape& shape, int rings, int per_ring, doub
 /// What each taxel feels of one sample of a contact. `axes` are the finger's x, y, z as columns
 /// along those of the points.
 ///
-/// On the surface: every point's force spread evenly over a disc of its area, or of its reach where
-/// that is more, averaged over the footprint. Sums over a dense array times its areas are the
-/// contact's forces: what a footprint and a disc share, taken over all places of the footprint, is
-/// the product of their areas. Below it: as the half space under the flattened skin conducts a
-/// force F on its surface, from which r leads to the taxel:
+/// On the surface: the mean over the footprint of the field between its points (FootprintMeans).
+/// Sums over a dense array times its areas are the contact's forces but for what the points leave
+/// open: 0.5 % where the contact is some ten points wide. Below it: as the half space under the
+/// flattened skin conducts a force F on its surface, from which r leads to the taxel:
 ///   stress on the parallel plane at depth h = 3 h (F·r) r/(2π |r|⁵)
 /// (Boussinesq and Cerruti; Johnson, Contact Mechanics, 1985, sections 3.2 and 3.6), whatever
 /// Poisson's ratio, spread over a disc of both areas' second moment. Curvature and the bond below
@@ -73,21 +72,35 @@ struct TaxelRow {
   Vector3 place = Vector3::Zero();                           ///< Taxel::place [m]
   double area = 0.0;                                         ///< Taxel::area [m²]
   double normal_stress = 0.0, shear_u = 0.0, shear_v = 0.0;  ///< TaxelReading [Pa]
+  double error = unknown;  ///< estimated, of each of them; unknown below the surface [Pa]
+  /// Of what the field resolves there; 0 where nothing touches, unknown below the surface [m].
+  double spacing = unknown;
 };
 consteval auto fields_of(const TaxelRow*) {
   return FINGERTIP_ALL_MEMBERS(TaxelRow, sample, indentation, taxel, place, area, normal_stress,
-                               shear_u, shear_v)
-      .in("m", "indentation place")
+                               shear_u, shear_v, error, spacing)
+      .in("m", "indentation place spacing")
       .in("m^2", "area")
-      .in("Pa", "normal_stress shear_u shear_v")
+      .in("Pa", "normal_stress shear_u shear_v error")
+      .if_known("error spacing")
       .called("place", "x,y,z");
 }
 
 /// What the taxels of one sample feel together: areas times normal stress [N].
 double felt_force(std::span<const TaxelRow> sample);
 
-/// A row for each taxel in each sample of a field (contact_field.csv).
+/// The coarsest that the field resolves where they touch; 0 where none does [m].
+double coarsest_spacing(std::span<const TaxelRow> sample);
+
+/// What is known of a field besides its points.
+struct FieldQuality {
+  std::vector<double> pressure_errors = {};  ///< PressSample::pressure_error per row, maybe unknown
+  double spacing = 0.0;  ///< of what is behind the points: a lattice's particles [m]
+};
+
+/// A row for each taxel in each sample of a field (contact_field.csv). A row's error is what the
+/// pressures are off, where that is known, and what the points leave open (FootprintMean::error).
 std::vector<TaxelRow> taxel_rows(std::span<const ContactPoint> field, const TaxelSkin& skin,
-                                 const Eigen::Matrix3d& axes);
+                                 const Eigen::Matrix3d& axes, const FieldQuality& quality = {});
 
 }  // namespace fingertip::meshes::inline press

@@ -313,8 +313,9 @@ RunResults Planner::results(const fs::path& folder, const std::vector<JobResult>
     const fs::path place = folder / result.folder;
     read_summary(place, result);
     if (is_drawn(*result.run)) {
-      for (const std::string& own : {result.folder, result.against})
-        if (!own.empty()) write_taxels(folder / own, result.setup);
+      write_taxels(place, result.setup, FieldOf::lattice);
+      if (!result.against.empty())
+        write_taxels(folder / result.against, result.setup, FieldOf::continuum);
       result.contact = contact_errors(result.setup, place, folder / result.against);
     }
     const meshes::PressProtocol& protocol = result.setup.protocol;

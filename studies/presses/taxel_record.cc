@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "lattice/model/plane.h"
+#include "meshes/press/press_response.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/files/shown_units.h"
 #include "studies/presses/pictures/contact_frames.h"
@@ -24,29 +25,41 @@ std::vector<ContactPoint> field_in(const fs::path& folder) {
   return fs::exists(table) ? meshes::read_rows<ContactPoint>(table) : std::vector<ContactPoint>();
 }
 
+/// Empty of a folder without one: a field that nobody has judged.
+std::vector<double> pressure_errors(const fs::path& folder) {
+  const fs::path table = folder / "response.csv";
+  if (!fs::exists(table)) return {};
+  std::vector<double> errors;
+  for (const meshes::PressSample& sample : meshes::PressResponse::read_csv(table).samples())
+    errors.push_back(sample.pressure_error);
+  return errors;
+}
+
 std::vector<TaxelRow> write_taxels(const std::vector<ContactPoint>& field, const fs::path& folder,
-                                   const lattice::PressSetup& setup) {
+                                   const lattice::PressSetup& setup, FieldOf model) {
   fs::remove(folder / "taxels.csv");
   const meshes::TaxelSkin& skin = setup.hardware.skin;
   if (skin.taxels.empty() || field.empty()) return {};
   const auto axes =
       lattice::field_axes(lattice::press_plane(setup.protocol, setup.geometry).normal);
-  const auto rows = taxel_rows(field, skin, axes.transpose());
+  const auto rows = taxel_rows(
+      field, skin, axes.transpose(),
+      {pressure_errors(folder), model == FieldOf::lattice ? setup.lattice.spacing : 0.0});
   meshes::write_rows(rows, folder / "taxels.csv");
   return rows;
 }
 
 }  // namespace
 
-void write_taxels(const fs::path& folder, const lattice::PressSetup& setup) {
-  write_taxels(field_in(folder), folder, setup);
+void write_taxels(const fs::path& folder, const lattice::PressSetup& setup, FieldOf model) {
+  write_taxels(field_in(folder), folder, setup, model);
 }
 
-std::vector<TaxelRow> write_contact_files(const fs::path& folder,
-                                          const lattice::PressSetup& setup) {
+std::vector<TaxelRow> write_contact_files(const fs::path& folder, const lattice::PressSetup& setup,
+                                          FieldOf model) {
   const std::vector<ContactPoint> field = field_in(folder);
   write_contact_frames(field, folder);
-  return write_taxels(field, folder, setup);
+  return write_taxels(field, folder, setup, model);
 }
 
 std::string taxel_words(const std::vector<TaxelRow>& rows) {
@@ -57,6 +70,17 @@ std::string taxel_words(const std::vector<TaxelRow>& rows) {
                      shown_units().length.text(most.indentation),
                      shown_units().stress.text(most.normal_stress), most.taxel,
                      shown_units().force.text(felt_force(last)));
+}
+
+std::string footprint_note(const std::vector<TaxelRow>& rows, double footprint) {
+  if (rows.empty()) return "";
+  const double spacing = meshes::coarsest_spacing(meshes::samples_of(rows).back());
+  if (!(footprint < spacing)) return "";
+  const auto& length = shown_units().length;
+  return fmt::format(
+      "sensor.footprint = {} is finer than the field, which tells places {} apart: what a taxel "
+      "reads is interpolated; take a wider footprint or a finer grid or mesh",
+      length.text(footprint), length.text(spacing));
 }
 
 }  // namespace fingertip::studies::inline presses

@@ -202,6 +202,12 @@ class ToldSummary {
   nlohmann::ordered_json content_;
 };
 
+/// What a skin felt, and that its footprint is too fine.
+void print_skin(const std::vector<meshes::TaxelRow>& felt, const std::string& finer) {
+  if (!felt.empty()) fmt::print("{}\n", taxel_words(felt));
+  if (!finer.empty()) fmt::print(stderr, "fingertip: note: {}\n", finer);
+}
+
 /// The continuum's press for the error of a lattice's; empty where it failed, and `source` is then
 /// the estimate.
 meshes::PressResponse press_continuum(Session& session, lattice::ModelKind model,
@@ -297,7 +303,13 @@ int run_press(const CommandLine& line) {
     auto response = meshes::PressResponse::read_csv(folder / "response.csv");
     session.expect_later(0.0);
     const auto error = find_force_error(source, setup, session, told, response);
-    const auto felt = write_contact_files(folder, setup);
+    const auto felt = write_contact_files(folder, setup, FieldOf::lattice);
+    const std::string finer = footprint_note(felt, setup.hardware.skin.footprint);
+    if (!finer.empty()) {
+      std::vector<std::string> all = warnings;
+      all.push_back(finer);
+      told.put_warnings(all);
+    }
     if (!line.quiet) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
@@ -305,7 +317,7 @@ int run_press(const CommandLine& line) {
       if (error) fmt::print("{}\n", error_words(*error));
       if (const std::string beyond = error ? beyond_tolerance(loaded, *error) : ""; !beyond.empty())
         fmt::print("{}\n", beyond);
-      if (!felt.empty()) fmt::print("{}\n", taxel_words(felt));
+      print_skin(felt, finer);
       print_press_facts(summary, result.reused);
       print_sources(loaded);
     }
@@ -356,7 +368,8 @@ int run_reference(const CommandLine& line) {
     const bool press = reference.analysis != fem_reference::Analysis::modes;
     const auto response =
         press ? meshes::PressResponse::read_csv(folder / "response.csv") : meshes::PressResponse();
-    const auto felt = write_contact_files(folder, loaded.config.press);
+    const auto felt = write_contact_files(folder, loaded.config.press, FieldOf::continuum);
+    const std::string finer = footprint_note(felt, loaded.config.press.hardware.skin.footprint);
     const WorstError worst = worst_error(response.samples());
     const bool reached = !reference.estimate_error || !(worst.relative > reference.tolerance);
     if (!line.quiet) {
@@ -365,15 +378,18 @@ int run_reference(const CommandLine& line) {
         print_response(response, reference.protocol);
         print_program(stage_entries(reference.protocol, response), meshes::unknown,
                       reference.protocol.goes_back() ? work_along(response) : meshes::unknown);
-        if (!felt.empty()) fmt::print("{}\n", taxel_words(felt));
+        print_skin(felt, finer);
         if (reference.estimate_error) print_accuracy(folder, reference, worst);
       } else {
         print_frequencies(folder);
       }
       print_folder(session, result);
     }
+    std::vector<std::string> warnings;
+    if (!finer.empty()) warnings.push_back(finer);
+    if (!reached) warnings.push_back("force_error over normal_force exceeds reference.tolerance");
+    if (!warnings.empty()) ToldSummary(folder).put_warnings(warnings);
     if (reached) return 0;
-    ToldSummary(folder).put_warnings({"force_error over normal_force exceeds reference.tolerance"});
     fmt::print(stderr,
                "fingertip: not converged: the force may be off by more than reference.tolerance = "
                "{:.3g}; the run is kept, with its error bars{}\n",

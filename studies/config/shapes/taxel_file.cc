@@ -18,6 +18,7 @@ namespace {
 constexpr int usual_rings = 4, usual_per_ring = 8;
 constexpr double usual_length = 0.1;  ///< over the finger's radius
 constexpr long most_taxels = 10000;
+constexpr double same_place = 1e-4;  ///< over the finger's radius
 const std::string places_head = "x [mm],y [mm],z [mm]";
 
 InvalidInput too_many(const std::string& value) {
@@ -25,9 +26,23 @@ InvalidInput too_many(const std::string& value) {
                        "leave some out"});
 }
 
+/// Throws InvalidInput for an area that is none of a part of the surface [m²].
+void check_area(double area, const meshes::Shape& shape) {
+  if (!(area > 0.0 && std::isfinite(area)))
+    throw InvalidInput({"sensor.taxels", "", "a taxel has x, y and z, and a positive area",
+                        "fill in the number, or delete the line"});
+  const double whole = shape.area(meshes::ProfileSurface::contact);
+  if (area > whole)
+    throw InvalidInput({"sensor.taxels", meshes::to_text(area) + " m^2",
+                        "a taxel's area is part of the surface that may touch, which has " +
+                            meshes::to_text(1e6 * whole) + " mm^2",
+                        "check the unit of the column area, as in area [mm^2]"});
+}
+
 std::vector<Taxel> read_taxels(const std::filesystem::path& file, const meshes::Shape& shape,
                                double usual_area) {
   const CsvTable table = meshes::read_csv_of_people(file, separate_alike);
+  if (long(table.rows.size()) > most_taxels) throw too_many(file.filename().string());
   std::vector<meshes::Vector3> places(table.rows.size());
   for (int axis = 0; axis < 3; ++axis) {
     const QuantityColumn column = length_column(table, std::string(1, "xyz"[axis]), places_head);
@@ -41,14 +56,20 @@ std::vector<Taxel> read_taxels(const std::filesystem::path& file, const meshes::
                                         : table.numbers(area.name);
   std::vector<meshes::Violation> broken;
   std::vector<Taxel> taxels;
+  std::vector<std::size_t> lines;  ///< where they stand
   for (std::size_t row = 0; row < places.size(); ++row) {
     const std::string place = file.string() + ":" + std::to_string(table.lines[row]);
     try {
-      if (!places[row].allFinite() || !(areas[row] > 0.0 && std::isfinite(areas[row])))
-        throw InvalidInput({"sensor.taxels", "", "a taxel has x, y and z, and a positive area",
-                            "fill in the number, or delete the line"});
-      taxels.push_back(taxel_at(shape, places[row]));
-      taxels.back().area = areas[row] * area.unit;
+      check_area(places[row].allFinite() ? areas[row] * area.unit : meshes::unknown, shape);
+      Taxel taxel = taxel_at(shape, places[row]);
+      taxel.area = areas[row] * area.unit;
+      for (std::size_t i = 0; i < taxels.size(); ++i)
+        if ((taxels[i].place - taxel.place).norm() < same_place * shape.largest_radius())
+          throw InvalidInput({"sensor.taxels", "the place of line " + std::to_string(lines[i]),
+                              "every taxel has a place of its own",
+                              "move one of the two, or delete it"});
+      taxels.push_back(taxel);
+      lines.push_back(table.lines[row]);
     } catch (const InvalidInput& error) {
       broken.push_back(error.violations().front());
       broken.back().place = place;
@@ -78,7 +99,6 @@ void lay_taxels(const TaxelLayout& layout, const meshes::Geometry& finger,
       throw too_many(std::to_string(rings) + " rings of " + std::to_string(per_ring));
     skin.taxels = taxel_rings(*shape, rings, per_ring, layout.pitch.value_or(length));
   }
-  if (long(skin.taxels.size()) > most_taxels) throw too_many(layout.file.filename().string());
 }
 
 }  // namespace fingertip::studies::inline config::inline shapes

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "meshes/base/errors.h"
@@ -109,34 +112,220 @@ TEST(TaxelReadings, AreMeansOverTheFootprint) {
   }
 }
 
-/// Of a continuum's meridian: rings much narrower than its points on them are apart, or wider.
-TEST(TaxelReadings, OfRingsAreThoseOfTheirPressure) {
-  for (const int rings : {20, 150}) {
-    std::vector<ContactPoint> points;
-    const double width = radius / rings;
-    for (int i = 0; i < rings; ++i) {
-      const double r = (i + 0.5) * width;
-      ContactPoint ring{.area = 2.0 * pi * r * width,
-                        .normal_traction = peak * std::sqrt(1.0 - r * r / (radius * radius))};
-      ring.rest = ring.place = {r, 0.0, 0.0};
-      const int count = 4 * int(std::ceil(19.0 * r / radius));
-      const auto turned = meshes::turned_around(ring, count);
-      points.insert(points.end(), turned.begin(), turned.end());
+/// Pressure over its peak at a place over the contact's radius.
+using Law = std::function<double(double, double)>;
+
+double round_law(double x, double y) {
+  return std::sqrt(std::max(0.0, 1.0 - x * x - y * y));
+}
+double oval_law(double x, double y) {
+  return round_law(x, 2.0 * y);
+}
+/// Of thin rubber pressed far (meshes::contact_patch, b = 2).
+double peaked_law(double x, double y) {
+  const double inside = std::max(0.0, 1.0 - x * x - y * y);
+  return (std::sqrt(inside) + 2.0 * std::pow(inside, 3.5)) / 3.0;
+}
+
+ContactPoint point_of(const Law& law, double x, double y, double area) {
+  ContactPoint point{.area = area, .normal_traction = peak * law(x / radius, y / radius)};
+  point.rest = point.place = {x, y, 0.0};
+  point.shear = {0.3 * point.normal_traction, 0.0, 0.0};
+  return point;
+}
+
+/// Nodes of a solid's mesh, `count` to the radius, no two elements alike: areas as a quadratic
+/// element's corners, edges and middles have them.
+std::vector<ContactPoint> nodes_of(const Law& law, int count) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> off(-0.3, 0.3);
+  const double step = radius / count;
+  std::vector<ContactPoint> points;
+  for (int i = -count - 1; i <= count + 1; ++i)
+    for (int j = -count - 1; j <= count + 1; ++j) {
+      const double area = step * step * (i % 2 ? 4.0 : 2.0) / 3.0 * (j % 2 ? 4.0 : 2.0) / 3.0;
+      points.push_back(
+          point_of(law, (i + off(generator)) * step, (j + off(generator)) * step, area));
     }
-    TaxelSkin skin{.footprint = radius / 3.0};
-    for (int i = 0; i < 40; ++i) {
-      const double r = 0.8 * radius * i / 40.0, angle = 2.4 * i;
-      skin.taxels.push_back({{r * std::cos(angle), r * std::sin(angle), 0.0}, Vector3::UnitZ()});
-    }
-    const auto felt = meshes::taxel_readings(points, skin);
-    for (std::size_t i = 0; i < felt.size(); ++i) {
-      // The mean over a disc of Hertz's pressure is that in its middle and its Laplacian's part.
-      const double x = skin.taxels[i].place.norm() / radius, root = std::sqrt(1.0 - x * x),
-                   laplacian = -(2.0 - x * x) / (root * root * root),
-                   mean = root + laplacian / 36.0 / 8.0;
-      EXPECT_NEAR(felt[i].normal_stress / peak, mean, 0.02) << rings << " " << x;
+  std::erase_if(points, [](const ContactPoint& point) { return point.normal_traction == 0.0; });
+  return points;
+}
+
+/// A lattice's surface points in circles (meshes::surface_points), `count` to the radius.
+std::vector<ContactPoint> circles_of(const Law& law, int count) {
+  const double step = radius / count;
+  std::vector<ContactPoint> points;
+  for (int i = 0; i < count; ++i) {
+    const double r = (i + 0.5) * step;
+    const int around = 8 * std::max(1, int(std::ceil(2.0 * pi * r / (8.0 * step))));
+    for (int j = 0; j < around; ++j) {
+      const double angle = 2.0 * pi * (j + 0.5) / around;
+      points.push_back(
+          point_of(law, r * std::cos(angle), r * std::sin(angle), 2.0 * pi * r * step / around));
     }
   }
+  std::erase_if(points, [](const ContactPoint& point) { return point.normal_traction == 0.0; });
+  return points;
+}
+
+/// A continuum's meridian, `count` nodes to the radius, the edge between two of them.
+std::vector<ContactPoint> rings_of(const Law& law, int count) {
+  const double width = radius / (count + 0.4);
+  std::vector<ContactPoint> points;
+  for (int i = 0; i <= count; ++i) {
+    const double r = i * width, area = pi * (i > 0 ? 2.0 * r * width : 0.25 * width * width);
+    ContactPoint ring = point_of(law, r, 0.0, area);
+    ring.shear = {0.0, 0.3 * ring.normal_traction, 0.0};  // of a twist
+    const auto turned =
+        meshes::turned_around(ring, i > 0 ? 4 * int(std::ceil(19.0 * double(i) / count)) : 1);
+    points.insert(points.end(), turned.begin(), turned.end());
+  }
+  return points;
+}
+
+/// The mean over a disc of `part` of the radius, by quadrature.
+double mean_of(const Law& law, const Vector3& middle, double part) {
+  constexpr int along = 60, around = 120;
+  double sum = 0.0;
+  for (int i = 0; i < along; ++i)
+    for (int j = 0; j < around; ++j) {
+      const double away = part * std::sqrt((i + 0.5) / along),
+                   angle = 2.0 * pi * (j + 0.5 * (i % 2)) / around;
+      sum += law(middle.x() / radius + away * std::cos(angle),
+                 middle.y() / radius + away * std::sin(angle));
+    }
+  return sum / (along * around);
+}
+
+/// Places anywhere in the contact and beside it.
+TaxelSkin scattered(double part) {
+  TaxelSkin skin{.footprint = 2.0 * std::max(part, 1e-9) * radius};
+  for (int i = 0; i < 60; ++i) {
+    const double away = 1.3 * radius * std::sqrt((i + 0.5) / 60.0), angle = 2.399963 * i;
+    skin.taxels.push_back(
+        {{away * std::cos(angle), away * std::sin(angle), 0.0}, Vector3::UnitZ(), 0.0});
+  }
+  return skin;
+}
+
+/// Footprints from none to as wide as the radius, wherever they lie, of points as both models have
+/// them.
+TEST(TaxelReadings, AreMeansOfHertzWithinAHundredthOfThePeak) {
+  const std::vector<std::pair<Law, std::vector<ContactPoint>>> fields = {
+      {round_law, hertz(4, 0.3)},
+      {round_law, hertz(10, 0.3)},
+      {round_law, nodes_of(round_law, 20)},
+      {oval_law, nodes_of(oval_law, 20)},
+      {round_law, circles_of(round_law, 20)},
+      {peaked_law, circles_of(peaked_law, 20)}};
+  for (const double part : {0.0, 0.05, 0.2, 0.5})
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      const auto& [law, points] = fields[k];
+      const TaxelSkin skin = scattered(part);
+      const auto felt = meshes::taxel_readings(points, skin);
+      for (std::size_t i = 0; i < felt.size(); ++i) {
+        const double mean = mean_of(law, skin.taxels[i].place, part);
+        EXPECT_NEAR(felt[i].normal_stress / peak, mean, 0.01) << part << " " << k << " " << i;
+        EXPECT_NEAR(felt[i].shear_u / peak, 0.3 * mean, 0.006) << part << " " << k << " " << i;
+      }
+    }
+}
+
+/// Rings much narrower than their points on them are apart, or as wide: at every angle, too.
+TEST(TaxelReadings, OfRingsAreThoseOfTheirPressure) {
+  for (const int count : {40, 190})
+    for (const double part : {0.0, 0.06, 0.2, 0.5}) {
+      const auto points = rings_of(round_law, count);
+      const TaxelSkin skin = scattered(part);
+      const auto felt = meshes::taxel_readings(points, skin);
+      for (std::size_t i = 0; i < felt.size(); ++i) {
+        const Vector3& place = skin.taxels[i].place;
+        const double mean = mean_of(round_law, place, part);
+        EXPECT_NEAR(felt[i].normal_stress / peak, mean, 0.01) << count << " " << part << " " << i;
+        if (part > 0.0) continue;
+        // Around the axis.
+        const Vector3 across = Vector3::UnitZ().cross(place).normalized();
+        EXPECT_NEAR(felt[i].shear_u / peak, 0.3 * mean * across.x(), 0.004) << count << " " << i;
+        EXPECT_NEAR(felt[i].shear_v / peak, 0.3 * mean * across.y(), 0.004) << count << " " << i;
+      }
+    }
+}
+
+/// Also where the outermost points bear what presses beyond them, as a lattice's do, and where the
+/// edge is sharp.
+TEST(TaxelReadings, OfADenseArrayAddUpToTheForceWhateverTheEdgeIs) {
+  auto heavy = circles_of(round_law, 10);
+  for (ContactPoint& point : heavy)
+    if (point.rest.norm() > 0.8 * radius) point.normal_traction *= 1.2;
+  const auto flat = circles_of([](double x, double y) { return double(x * x + y * y < 1.0); }, 10);
+  for (const auto& points : {heavy, flat, rings_of(peaked_law, 30)}) {
+    const double force = -meshes::sums_of(points, Vector3::Zero()).force.z();
+    const TaxelSkin skin = grid(3.2e-3, 0.1e-3, 0.3e-3);
+    EXPECT_NEAR(total(skin, meshes::taxel_readings(points, skin)).z() / force, 1.0, 0.005)
+        << points.size();
+  }
+}
+
+/// Coulomb's bound holds between points, too: shear over pressure is at most theirs.
+TEST(TaxelReadings, HaveNoMoreShearOverPressureThanThePoints) {
+  const auto points = nodes_of(peaked_law, 8);
+  for (const TaxelReading& felt : meshes::taxel_readings(points, scattered(0.1)))
+    EXPECT_LE(std::hypot(felt.shear_u, felt.shear_v), (0.3 + 1e-9) * felt.normal_stress);
+}
+
+TEST(TaxelReadings, BetweenTwoPadsAreZero) {
+  std::vector<ContactPoint> points = nodes_of(round_law, 10), other = points;
+  for (ContactPoint& point : points) point.rest.x() = point.place.x() -= 1.3 * radius;
+  for (ContactPoint& point : other) point.rest.x() = point.place.x() += 1.3 * radius;
+  points.insert(points.end(), other.begin(), other.end());
+  TaxelSkin skin{.footprint = 0.1 * radius};
+  for (const double y : {-0.5, 0.0, 0.5})
+    skin.taxels.push_back({{0.0, y * radius, 0.0}, Vector3::UnitZ(), 0.0});
+  skin.taxels.push_back({{1.3 * radius, 0.0, 0.0}, Vector3::UnitZ(), 0.0});
+  const auto felt = meshes::taxel_readings(points, skin);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(felt[i].normal_stress, 0.0) << i;
+  EXPECT_NEAR(felt[3].normal_stress / peak, 1.0, 0.01);
+}
+
+/// Coarse points and a pressure that they do not resolve: nine of ten within twice the error.
+TEST(TaxelRows, HaveAnErrorOfWhatThePointsLeaveOpen) {
+  int covered = 0, all = 0;
+  for (const int count : {6, 9, 14}) {
+    auto points = nodes_of(peaked_law, count);
+    for (ContactPoint& point : points) point.sample = 1, point.indentation = 1e-3;
+    const double part = 0.15;
+    const TaxelSkin skin = scattered(part);
+    for (const auto& row : taxel_rows(points, skin, Eigen::Matrix3d::Identity())) {
+      if (!(row.spacing > 0.0)) {
+        EXPECT_EQ(row.error, 0.0);
+        EXPECT_EQ(row.normal_stress, 0.0);
+        continue;
+      }
+      EXPECT_NEAR(row.spacing * count / radius, 1.0, 0.3);
+      EXPECT_LT(row.error, 0.3 * peak);
+      const double off = row.normal_stress - peak * mean_of(peaked_law, row.place, part);
+      covered += std::abs(off) <= std::max(2.0 * row.error, 0.003 * peak);
+      ++all;
+    }
+  }
+  EXPECT_GE(covered, 9 * all / 10) << "of " << all;
+}
+
+/// What the pressures are known to be off, where a taxel touches; what the particles resolve.
+TEST(TaxelRows, KnowTheErrorOfTheField) {
+  auto points = hertz(6, 0.3);
+  for (ContactPoint& point : points) point.sample = 2;
+  TaxelSkin skin = grid(3e-3, 3e-3, 0.4e-3);
+  const auto rows = taxel_rows(points, skin, Eigen::Matrix3d::Identity(), {{5.0, 40.0}, 0.7e-3});
+  ASSERT_EQ(rows.size(), 9u);
+  EXPECT_NEAR(rows[4].error, 40.0, 1.0);
+  EXPECT_EQ(rows[4].spacing, 0.7e-3);
+  EXPECT_EQ(rows[0].error, 0.0);
+  EXPECT_EQ(rows[0].spacing, 0.0);
+  EXPECT_EQ(meshes::coarsest_spacing(rows), 0.7e-3);
+  skin.depth = 1e-3;
+  for (const auto& row : taxel_rows(points, skin, Eigen::Matrix3d::Identity(), {{}, 0.7e-3}))
+    EXPECT_TRUE(std::isnan(row.error) && std::isnan(row.spacing));
 }
 
 /// Under the middle of Hertz's tractions (Johnson, Contact Mechanics, equations 3.45 and 7.22):

@@ -52,6 +52,12 @@ TEST(TaxelFile, IsRefusedLineByLine) {
   EXPECT_TRUE(says(refusal_of("x [mm],y [mm],z [s]\n0,0,1\n"), {"skin.csv:1", "z [s]"}));
   EXPECT_TRUE(says(refusal_of("x [mm],y [mm],z [mm],area [mm^2]\n0,0,10,-1\n"),
                    {"skin.csv:2", "positive area"}));
+  EXPECT_TRUE(says(refusal_of(head + "0,0,10\n6,0,8\n0,0,10\n"),
+                   {"skin.csv:4", "sensor.taxels", "the place of line 2", "a place of its own"}));
+  const std::string areas = "x [mm],y [mm],z [mm],area [m^2]\n";
+  EXPECT_TRUE(says(refusal_of(areas + "0,0,10,1e-6\n6,0,8,1\n"),
+                   {"skin.csv:3", "sensor.taxels", "1 m^2", "part of the surface", "unit"}));
+  EXPECT_EQ(refusal_of(areas + "0,0,10,1e-6\n6,0,8,1e-6\n"), "");
   EXPECT_TRUE(says(refusal_of(head + "0,0,10\n", "footprint = \"1 mm\"\ndepth = \"0.05 mm\"\n"),
                    {"sensor.depth = 0.05 mm", "a tenth of the footprint"}));
 }
