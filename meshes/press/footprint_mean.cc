@@ -48,14 +48,14 @@ FlatPoint flat(const ContactPoint& point, double edge, const Vector3& middle,
   return flat;
 }
 
-/// The same of a block of the contact, seen along z.
-FlatPoint seen(const ContactPoint& point, double edge, const Vector3& middle) {
+/// The same of a block of the contact, seen along the frame's third axis, without shear.
+FlatPoint seen(const ContactPoint& point, double edge, const Vector3& middle,
+               const Matrix3d& frame) {
   FlatPoint flat;
-  const Vector3 chord = point.rest - middle;
-  flat.at = chord.head<2>();
-  flat.warped = point.place - middle;
+  flat.at = (frame.transpose() * (point.rest - middle)).head<2>();
+  flat.warped = frame.transpose() * (point.place - middle);
   flat.warped.head<2>() -= flat.at;
-  flat.normal = point.normal;
+  flat.normal = frame.transpose() * point.normal;
   flat.pressure = point.normal_traction;
   flat.area = point.area;
   flat.edge = edge;
@@ -64,10 +64,22 @@ FlatPoint seen(const ContactPoint& point, double edge, const Vector3& middle) {
 
 }  // namespace
 
-FootprintMeans::FootprintMeans(std::span<const ContactPoint> points) : points_(points) {
+FootprintMeans::FootprintMeans(std::span<const ContactPoint> points, const Matrix3d& axes)
+    : points_(points) {
+  look_along(axes);
   mark_edge();
   list_rings();
   balance();
+}
+
+void FootprintMeans::look_along(const Matrix3d& axes) {
+  Vector3 normal = Vector3::Zero();
+  for (const ContactPoint& point : points_) normal -= point.area * point.normal;
+  if (!(normal.norm() > 0.0)) return;
+  normal.normalize();
+  const Vector3 first = std::abs(axes.col(0).dot(normal)) < 0.9 ? axes.col(0) : axes.col(1),
+                second = normal.cross(first).normalized();
+  frame_ << second.cross(normal), second, normal;
 }
 
 /// How near each point is to the edge of the contact's hull.
@@ -75,14 +87,14 @@ void FootprintMeans::mark_edge() {
   Outline outline;
   double area = 0.0;
   for (const ContactPoint& point : points_) {
-    outline.push_back({point.rest.head<2>(), point.area});
+    outline.push_back({(frame_.transpose() * point.rest).head<2>(), point.area});
     area += point.area;
   }
   if (outline.empty()) return;
   spacing_ = std::sqrt(area / double(points_.size()));
   outline = hull_of(std::move(outline));
   for (const ContactPoint& point : points_) {
-    const double depth = -beside(outline, point.rest.head<2>()).distance;
+    const double depth = -beside(outline, (frame_.transpose() * point.rest).head<2>()).distance;
     edges_.push_back(std::clamp(1.0 - depth / (edge_spacings * spacing_), 0.0, 1.0));
   }
 }
@@ -166,7 +178,7 @@ void FootprintMeans::balance() {
       const Vector3 place(middle, 0.0, nearest->point.rest.z());
       std::vector<FlatPoint> near;
       for (const Ring& image : images(place, 0.0, within))
-        near.push_back(seen(image.point, image.edge, place));
+        near.push_back(seen(image.point, image.edge, place, Matrix3d::Identity()));
       add(near, side, [&](int count, const auto& take) {
         const double step = side / count;
         for (int i = 0; i < count; ++i) {
@@ -178,17 +190,18 @@ void FootprintMeans::balance() {
   } else {
     const double side = block_spacings * spacing_, within = side + kept_spacings * spacing_;
     std::set<std::pair<int, int>> blocks;
-    for (const ContactPoint& point : points_)
+    for (const ContactPoint& point : points_) {
+      const Vector3 at = frame_.transpose() * point.rest / side;
       for (const double x : {-0.5, 0.5})  // an edge may lie in the next block
         for (const double y : {-0.5, 0.5})
-          blocks.emplace(int(std::floor(point.rest.x() / side + x)),
-                         int(std::floor(point.rest.y() / side + y)));
+          blocks.emplace(int(std::floor(at.x() + x)), int(std::floor(at.y() + y)));
+    }
     for (const auto& [i, j] : blocks) {
-      Vector3 place((i + 0.5) * side, (j + 0.5) * side, 0.0);
+      const Vector3 place = frame_ * Vector3((i + 0.5) * side, (j + 0.5) * side, 0.0);
       std::vector<FlatPoint> near;
       for (std::size_t k = 0; k < points_.size(); ++k)
-        if ((points_[k].rest - place).head<2>().squaredNorm() < within * within)
-          near.push_back(seen(points_[k], edges_[k], place));
+        if ((frame_.transpose() * (points_[k].rest - place)).head<2>().norm() < within)
+          near.push_back(seen(points_[k], edges_[k], place, frame_));
       add(near, side, [&](int count, const auto& take) {
         const double step = side / count;
         for (int m = 0; m < count; ++m)

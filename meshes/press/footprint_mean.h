@@ -35,8 +35,10 @@ struct FootprintMean {
 /// apart, every point may be told at any angle.
 class FootprintMeans {
  public:
-  /// Keeps `points`.
-  explicit FootprintMeans(std::span<const ContactPoint> points);
+  /// Keeps `points`. `axes`: two directions across the normal, more or less, in which the field is
+  /// summed up (columns), along the points' axes.
+  explicit FootprintMeans(std::span<const ContactPoint> points,
+                          const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 
   /// Over the disc of `radius` >= 0 about `middle` [m] across the third of the `axes` (columns),
   /// the normal out of the rubber, all along the axes of the points.
@@ -50,6 +52,7 @@ class FootprintMeans {
     double edge = 0.0;   ///< FlatPoint::edge
   };
   void list_rings();
+  void look_along(const Eigen::Matrix3d& axes);
   void mark_edge();
   void balance();
   /// Points of the rings within a distance of a place, on each as far apart as it is wide, or
@@ -57,9 +60,10 @@ class FootprintMeans {
   std::vector<Ring> images(const Vector3& middle, double apart, double within) const;
 
   std::span<const ContactPoint> points_;
-  std::vector<double> edges_;  ///< FlatPoint::edge of each
-  std::vector<Ring> rings_;    ///< empty: no meridian
-  double spacing_ = 0.0;       ///< mean [m]
+  Eigen::Matrix3d frame_ = Eigen::Matrix3d::Identity();  ///< of the contact, seen along its normal
+  std::vector<double> edges_;                            ///< FlatPoint::edge of each
+  std::vector<Ring> rings_;                              ///< empty: no meridian
+  double spacing_ = 0.0;                                 ///< mean [m]
   double lacking_ = 0.0;  ///< of the pressure at the edge, so that sums are the contact's force
 };
 
