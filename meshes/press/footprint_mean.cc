@@ -48,12 +48,11 @@ FlatPoint flat(const ContactPoint& point, double edge, const Vector3& middle,
   return flat;
 }
 
-/// The same of a block of the contact, seen along the frame's third axis, without shear.
-FlatPoint seen(const ContactPoint& point, double edge, const Vector3& middle,
-               const Matrix3d& frame) {
+/// The same of the whole contact, seen along the frame's third axis, without shear.
+FlatPoint seen(const ContactPoint& point, double edge, const Matrix3d& frame) {
   FlatPoint flat;
-  flat.at = (frame.transpose() * (point.rest - middle)).head<2>();
-  flat.warped = frame.transpose() * (point.place - middle);
+  flat.at = (frame.transpose() * point.rest).head<2>();
+  flat.warped = frame.transpose() * point.place;
   flat.warped.head<2>() -= flat.at;
   flat.normal = frame.transpose() * point.normal;
   flat.pressure = point.normal_traction;
@@ -156,12 +155,14 @@ void FootprintMeans::balance() {
   for (const ContactPoint& point : points_) wanted += point.area * point.normal_traction;
   if (!(wanted > 0.0)) return;
   double felt = 0.0, at_edge = 0.0;
-  const auto add = [&](const std::vector<FlatPoint>& near, double side, const auto& places) {
+  const auto add = [&](const std::vector<FlatPoint>& near, const Vector2d& middle, double side,
+                       const auto& places) {
     if (near.empty()) return;
-    const LocalField field(near, {0.0, 0.0}, std::numbers::sqrt2 / 2.0 * side);
+    const LocalField field(near, middle, std::numbers::sqrt2 / 2.0 * side);
     double sum = 0.0;
-    places(field.is_inside() ? 4 : 10,
-           [&](const Vector2d& place, double area) { sum += area * field.at(place).pressure; });
+    places(field.is_inside() ? 4 : 10, [&](const Vector2d& place, double area) {
+      sum += area * field.at(middle + place).pressure;
+    });
     felt += sum;
     at_edge += field.edge() * sum;
   };
@@ -178,8 +179,8 @@ void FootprintMeans::balance() {
       const Vector3 place(middle, 0.0, nearest->point.rest.z());
       std::vector<FlatPoint> near;
       for (const Ring& image : images(place, 0.0, within))
-        near.push_back(seen(image.point, image.edge, place, Matrix3d::Identity()));
-      add(near, side, [&](int count, const auto& take) {
+        near.push_back(seen(image.point, image.edge, Matrix3d::Identity()));
+      add(near, {middle, 0.0}, side, [&](int count, const auto& take) {
         const double step = side / count;
         for (int i = 0; i < count; ++i) {
           const double across = (i + 0.5) * step - 0.5 * side;
@@ -189,20 +190,20 @@ void FootprintMeans::balance() {
     }
   } else {
     const double side = block_spacings * spacing_, within = side + kept_spacings * spacing_;
+    std::vector<FlatPoint> all;
     std::set<std::pair<int, int>> blocks;
-    for (const ContactPoint& point : points_) {
-      const Vector3 at = frame_.transpose() * point.rest / side;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Vector2d at = all.emplace_back(seen(points_[i], edges_[i], frame_)).at / side;
       for (const double x : {-0.5, 0.5})  // an edge may lie in the next block
         for (const double y : {-0.5, 0.5})
           blocks.emplace(int(std::floor(at.x() + x)), int(std::floor(at.y() + y)));
     }
     for (const auto& [i, j] : blocks) {
-      const Vector3 place = frame_ * Vector3((i + 0.5) * side, (j + 0.5) * side, 0.0);
+      const Vector2d middle((i + 0.5) * side, (j + 0.5) * side);
       std::vector<FlatPoint> near;
-      for (std::size_t k = 0; k < points_.size(); ++k)
-        if ((frame_.transpose() * (points_[k].rest - place)).head<2>().norm() < within)
-          near.push_back(seen(points_[k], edges_[k], place, frame_));
-      add(near, side, [&](int count, const auto& take) {
+      for (const FlatPoint& point : all)
+        if ((point.at - middle).squaredNorm() < within * within) near.push_back(point);
+      add(near, middle, side, [&](int count, const auto& take) {
         const double step = side / count;
         for (int m = 0; m < count; ++m)
           for (int n = 0; n < count; ++n)
@@ -241,10 +242,14 @@ FootprintMean FootprintMeans::over(const Vector3& middle, const Matrix3d& axes,
   double within = radius + kept_spacings * spacing;
   std::vector<FlatPoint> near;
   if (rings_.empty()) {
-    std::vector<double> sorted = squares;
-    const std::size_t rank = std::min(LocalField::points, sorted.size()) - 1;
-    std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(rank), sorted.end());
-    within = std::max(within, std::sqrt(sorted[rank]));
+    const auto kept =
+        std::ranges::count_if(squares, [&](double square) { return square <= within * within; });
+    if (std::size_t(kept) < LocalField::points) {
+      std::vector<double> sorted = squares;
+      const std::size_t rank = std::min(LocalField::points, sorted.size()) - 1;
+      std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(rank), sorted.end());
+      within = std::max(within, std::sqrt(sorted[rank]));
+    }
     for (std::size_t i = 0; i < squares.size(); ++i)
       if (squares[i] <= within * within) near.push_back(flat(points_[i], edges_[i], middle, axes));
   } else {

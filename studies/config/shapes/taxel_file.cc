@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "meshes/base/files.h"
 #include "studies/config/shapes/people_table.h"
 
 namespace fingertip::studies::inline config::inline shapes {
