@@ -433,7 +433,38 @@ meshes::ContactPatch PenaltyContact::patch() const {
     sums.area += p.area;
     sums.touched += p.touched;
   }
-  return contact_patch(sums, model_->sector.count());
+  const meshes::ContactPatch patch = contact_patch(sums, model_->sector.count());
+  return patch.is_fine ? patch.judged_by(patch_loads(patch, view)) : patch;
+}
+
+/// Per contact particle, of the groups that touch.
+std::vector<meshes::PatchLoad> PenaltyContact::patch_loads(const meshes::ContactPatch& patch,
+                                                           const kernel::PatchView& view) const {
+  std::vector<meshes::PatchLoad> loads(shape_->particles.size());
+  const auto along = [](const double* direction, const kernel::Lanes* at, std::size_t lane) {
+    return direction[0] * at[0].at[lane] + direction[1] * at[1].at[lane] +
+           direction[2] * at[2].at[lane];
+  };
+  for (const std::uint32_t number : near_) {
+    if (found_[number].touching == 0) continue;
+    const kernel::ContactGroup& group = shape_->groups[number];
+    const kernel::ContactMemory& memory = memory_[number];
+    const kernel::Lanes* const place = view.at_rest ? group.rest : memory.place;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!(group.stiffness.at[lane] > 0.0)) continue;  // repeats the first
+      const double push = memory.push.at[lane],
+                   expected = std::abs(along(view.normal, group.facing, lane)) *
+                              patch.profile({along(view.tangent[0], place, lane),
+                                             along(view.tangent[1], place, lane)});
+      const EmbeddedPoint& tie = model_->outer[shape_->points[number * lanes + lane]];
+      for (std::size_t c = 0; c < 8; ++c) {
+        meshes::PatchLoad& load = loads[group.particle[c]];
+        load.borne += tie.weights[c] * push;
+        load.expected += tie.weights[c] * expected;
+      }
+    }
+  }
+  return loads;
 }
 
 std::vector<std::uint8_t> PenaltyContact::held() const {

@@ -33,6 +33,7 @@ Finger::Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane
       surfaces_(make_surfaces(model, plane, law, team_)),
       move_(kernel::select_move()),
       integrator_(integrator),
+      law_(law),
       tip_mass_(model.total_mass()),
       now_{.state = State(model),
            .rod = RodState(rod),
@@ -266,7 +267,7 @@ std::vector<meshes::ContactPoint> Finger::field_of(std::vector<TiedPoint> points
   const Eigen::Matrix3d to_plane = field_axes(now_.plane.normal).transpose();
   for (TiedPoint& tied : points)
     for (Vector3* vector : tied.point.vectors()) *vector = to_plane * *vector;
-  return contact::contact_field(points, model_->sector.count());
+  return contact::contact_field(points, model_->sector.count(), law_);
 }
 
 std::vector<meshes::ContactPoint> Finger::contact_now() const {

@@ -132,6 +132,9 @@ class Finger {
   int sliding() const {
     return ask([](const auto& s) { return s.sliding(); });
   }
+  /// Whether the contact's field is known: not of a published finger.
+  bool has_field() const { return model_->is_cut(); }
+  /// Of live control: radius and peak of a press are those of its field.
   meshes::ContactPatch contact_patch() const {
     return ask([](const auto& s) { return s.patch(); });
   }
@@ -212,6 +215,7 @@ class Finger {
   Surfaces surfaces_;
   kernel::MoveParticles move_;
   Integrator integrator_;
+  ContactLaw law_;
   double tip_mass_;  ///< [kg]
   meshes::Vector3 gravity_ = meshes::Vector3::Zero();
   FingerMemory now_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/press/contact_patch.h"
+
 namespace fingertip::lattice::inline press {
 
 using meshes::PressSample, meshes::Vector3;
@@ -47,7 +49,7 @@ PressRecorder::PressRecorder(const meshes::PressProtocol& protocol,
 }
 
 PressSample PressRecorder::sample_between(const PressInstant& end, double fraction,
-                                          std::size_t stage) const {
+                                          std::size_t stage) {
   const auto between = [fraction](const auto& from, const auto& to) {
     return (from + fraction * (to - from));
   };
@@ -62,9 +64,13 @@ PressSample PressRecorder::sample_between(const PressInstant& end, double fracti
   sample.torque_x = torque.x();
   sample.torque_y = torque.y();
   sample.torque_z = torque.z();
-  const meshes::ContactPatch patch = finger_->contact_patch();
-  sample.contact_radius = patch.radius;
-  sample.max_pressure = patch.max_pressure;
+  if (finger_->has_field()) {
+    sample.contact_radius = contact_radius(field());
+    sample.max_pressure = largest_pressure(field());
+  } else {
+    sample.contact_radius = finger_->contact_patch().radius;
+    sample.max_pressure = meshes::unknown;
+  }
   if (stage == 0)
     move(sample, {&PressSample::contact_radius, &PressSample::max_pressure}, end.indentation,
          sample.indentation);
@@ -85,12 +91,11 @@ void PressRecorder::move(PressSample& sample, std::initializer_list<double Press
   const double way = from - last.indentation;
   if (!(way > std::abs(to - from))) return;
   for (const auto value : values)
-    if (!std::isnan(last.*value))  // a patch that is no ellipse has no largest pressure
+    if (!std::isnan(last.*value))  // of the published model
       sample.*value += (to - from) / way * (sample.*value - last.*value);
 }
 
-PressSample PressRecorder::sample_at(const PressInstant& end,
-                                     const meshes::MotionSample& wanted) const {
+PressSample PressRecorder::sample_at(const PressInstant& end, const meshes::MotionSample& wanted) {
   const double lasts = end.time - previous_.time;
   PressSample sample =
       sample_between(end, lasts > 0.0 ? (wanted.time - previous_.time) / lasts : 1.0, wanted.stage);
@@ -124,12 +129,19 @@ void PressRecorder::add_work(const PressInstant& end) {
 
 /// For the last row, at an indentation of the last step [m].
 void PressRecorder::note_contact(double indentation) {
-  const auto field = finger_->contact_field();
-  if (!field.empty()) outcome_->response.back().spin_torque = spin_torque(field);
-  add_sample(field, int(outcome_->response.samples().size()), indentation, outcome_->contact);
+  if (!field().empty()) outcome_->response.back().spin_torque = spin_torque(field());
+  add_sample(field(), int(outcome_->response.samples().size()), indentation, outcome_->contact);
+}
+
+/// Of the finger after its last step.
+const std::vector<meshes::ContactPoint>& PressRecorder::field() {
+  if (!has_field_) field_ = finger_->contact_field();
+  has_field_ = true;
+  return field_;
 }
 
 bool PressRecorder::add_step(const PressInstant& start) {
+  has_field_ = false;
   plane_impulse_ += finger_->plane_impulse().force.dot(normal_);
   if (std::isnan(outcome_->first_touch_time) && finger_->touching() > 0) {
     outcome_->first_touch_time = finger_->time();

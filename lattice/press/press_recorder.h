@@ -45,10 +45,10 @@ class PressRecorder {
   void update(double wall_time);
 
  private:
-  meshes::PressSample sample_between(const PressInstant& end, double fraction,
-                                     std::size_t stage) const;
+  meshes::PressSample sample_between(const PressInstant& end, double fraction, std::size_t stage);
   void note_contact(double indentation);
-  meshes::PressSample sample_at(const PressInstant& end, const meshes::MotionSample& wanted) const;
+  const std::vector<meshes::ContactPoint>& field();
+  meshes::PressSample sample_at(const PressInstant& end, const meshes::MotionSample& wanted);
   void move(meshes::PressSample& sample,
             std::initializer_list<double meshes::PressSample::*> values, double from,
             double to) const;
@@ -67,6 +67,8 @@ class PressRecorder {
   std::size_t next_later_ = 0;
   std::vector<double> times_;  ///< of all these, increasing [s]
   PressInstant previous_;
+  std::vector<meshes::ContactPoint> field_;  ///< of the last step, once one of its rows needs it
+  bool has_field_ = false;
   double plane_impulse_ = 0.0;  ///< along the normal since the last trace row [N s]
   double plane_since_ = 0.0;    ///< time of the last trace row [s]
 };

@@ -254,8 +254,6 @@ Wrench StaticPress::on_rod() const {
 PressSample StaticPress::sample() const {
   const auto [force, torque] = on_rod();
   const PressPlane& plane = now_.contact.plane();
-  const meshes::ContactPatch contact =
-      contact_patch(now_.contact.loaded_points(now_.displacement), body_.sectors);
   PressSample sample;
   const meshes::PressPose pose = now_.contact.pose();
   sample.indentation = pose.indentation;
@@ -267,7 +265,6 @@ PressSample StaticPress::sample() const {
   sample.torque_x = torque.x();
   sample.torque_y = torque.y();
   sample.torque_z = torque.z();
-  sample.set_contact(contact.radius, contact.max_pressure);
   return sample;
 }
 
@@ -313,8 +310,11 @@ void StaticPress::note_slopes() {
 }
 
 void StaticPress::note_contact() {
-  const auto field = contact_field(now_.contact.points(now_.displacement), body_.sectors);
-  outcome_.response.back().spin_torque = spin_torque(field);
+  const auto field = contact_field(now_.contact.points(now_.displacement), body_.sectors,
+                                   {setup_.protocol.contact, setup_.protocol.friction});
+  PressSample& sample = outcome_.response.back();
+  sample.set_contact(contact_radius(field), largest_pressure(field));
+  sample.spin_torque = spin_torque(field);
   add_sample(field, int(outcome_.response.samples().size()), now_.contact.pose().indentation,
              outcome_.contact);
 }

@@ -15,7 +15,7 @@ namespace fingertip::lattice::inline press {
 
 /// Counts are those of the part computed, 1/sectors of the tip; forces, torques, radii and contact
 /// points are the whole tip's. Of the response's columns time and force_error stay unknown.
-/// contact_radius and max_pressure are those of contact_patch: true ones at finite strain, at small
+/// contact_radius and max_pressure are those of the field: true ones at finite strain, at small
 /// strain those of the shape at rest. How far off they are stands in
 /// lattice/MEASUREMENTS.md (contact).
 struct StaticOutcome : PressShapes {  // empty unless it was to be pictured

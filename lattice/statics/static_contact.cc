@@ -32,6 +32,7 @@ StaticContact::StaticContact(const LatticeBody& body, const PressPlane& plane,
       law_(law),
       anchored_(body.outer.size(), 0),
       released_(body.outer.size(), 0),
+      slid_(body.outer.size(), 0),
       anchor_(body.outer.size(), Vector3::Zero()),
       limit_(body.outer.size(), law.mode == ContactMode::stick ? endless : 0.0),
       anchor_normal_(body.outer.size(), plane.normal) {
@@ -259,16 +260,11 @@ void StaticContact::end_step(const VectorXd& displacement) {
       continue;
     }
     const Vector3 pull = stretch(i, displacement), across = pull + now.gap * now.normal;
-    const Vector3 place = turned(i, anchor_[i]) - (1.0 - hold(i, pull, -now.gap).share) * across;
+    const Hold held = hold(i, pull, -now.gap);
+    slid_[i] = held.length >= (1.0 - held_yet) * limit_[i];
+    const Vector3 place = turned(i, anchor_[i]) - (1.0 - held.share) * across;
     anchor_[i] = turned_back(i, place, place_);
   }
-}
-
-bool StaticContact::slides(std::size_t point, const VectorXd& displacement) const {
-  if (law_.mode != ContactMode::coulomb) return law_.mode == ContactMode::frictionless;
-  const double depth = -gap_and_normal(point, displacement).gap;
-  return hold(point, stretch(point, displacement), depth).length >=
-         (1.0 - held_yet) * limit_[point];
 }
 
 int StaticContact::release_pulled(const VectorXd& displacement) {
@@ -322,22 +318,8 @@ std::vector<TiedPoint> StaticContact::points(const VectorXd& displacement) const
     point.normal = to_plane * gap_and_normal(i, displacement).normal;
     point.area = area(i, displacement);
     point.set_force(to_plane * tie_force(i, displacement));
-    point.state =
-        slides(i, displacement) ? meshes::ContactState::slip : meshes::ContactState::stick;
+    point.state = slides(i) ? meshes::ContactState::slip : meshes::ContactState::stick;
     if (law_.mode == ContactMode::frictionless) point.shear.setZero();  // but for round-off it is
-  }
-  return points;
-}
-
-std::vector<meshes::LoadedPoint> StaticContact::loaded_points(const VectorXd& displacement) const {
-  std::vector<meshes::LoadedPoint> points;
-  for (std::size_t i = 0; i < body_->outer.size(); ++i) {
-    const double push = tie_force(i, displacement).dot(plane_.normal);
-    if (!(push > 0.0)) continue;
-    const EmbeddedPoint& outer = body_->outer[i];
-    const Vector3 place = body_->finite ? position(outer, displacement) : outer.rest;
-    points.push_back(
-        {{place.dot(plane_.t1), place.dot(plane_.t2)}, push, seen_area(outer, plane_.normal)});
   }
   return points;
 }

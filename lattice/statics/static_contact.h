@@ -99,8 +99,10 @@ class StaticContact {
   void move_feet(const Eigen::VectorXd& displacement);
   /// Coulomb: anchors of what slides follow; what does not touch has none.
   void end_step(const Eigen::VectorXd& displacement);
-  /// Whether a point slides, or is free of friction.
-  bool slides(std::size_t point, const Eigen::VectorXd& displacement) const;
+  /// Whether a point slid in the last step, or is free of friction.
+  bool slides(std::size_t point) const {
+    return law_.mode == meshes::ContactMode::frictionless || slid_[point] != 0;
+  }
 
   /// Whether the obstacle acts on an outer point.
   bool touches(std::size_t point, const Eigen::VectorXd& displacement) const;
@@ -113,9 +115,6 @@ class StaticContact {
   /// Sum of the ties' forces; moments at positions of rest at small strain, at present ones at
   /// finite strain.
   PlaneReaction reaction(const Eigen::VectorXd& displacement, const meshes::Vector3& about) const;
-  /// The outer points that the plane pushes, seen along its normal: at finite strain where they
-  /// are, at small strain at rest; areas at rest.
-  std::vector<meshes::LoadedPoint> loaded_points(const Eigen::VectorXd& displacement) const;
   /// All outer points of the part computed, along the field's axes.
   std::vector<TiedPoint> points(const Eigen::VectorXd& displacement) const;
 
@@ -170,6 +169,7 @@ class StaticContact {
   double place_ = 0.0, from_ = 0.0;  ///< of the plane on its path, now and as the step began [m]
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();  ///< the plane's, there
   std::vector<std::uint8_t> anchored_, released_;
+  std::vector<std::uint8_t> slid_;              ///< in the last step (coulomb)
   std::vector<meshes::Vector3> anchor_;         ///< fixed to the plane, from plane_.point [m]
   std::vector<double> limit_;                   ///< tie's length across that friction holds [m]
   std::vector<meshes::Vector3> anchor_normal_;  ///< of the obstacle there, fixed to the plane

@@ -75,6 +75,12 @@ ContactSums sums_of(std::span<const ContactPoint> points, const Vector3& about) 
   return sums;
 }
 
+double contact_radius(std::span<const ContactPoint> points) {
+  double area = 0.0;
+  for (const ContactPoint& point : points) area += point.area * std::abs(point.normal.z());
+  return std::sqrt(area / std::numbers::pi);
+}
+
 Vector3 centre_of_pressure(std::span<const ContactPoint> points) {
   double force = 0.0;
   Vector3 sum = Vector3::Zero();

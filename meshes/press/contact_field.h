@@ -93,6 +93,9 @@ struct ContactSums {
 };
 ContactSums sums_of(std::span<const ContactPoint> points, const Vector3& about);
 
+/// Of the circle that has the area of the points as seen along n [m].
+double contact_radius(std::span<const ContactPoint> points);
+
 /// Where the resultant of the normal forces acts, their mean place [m]; not of no points.
 Vector3 centre_of_pressure(std::span<const ContactPoint> points);
 

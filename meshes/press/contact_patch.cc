@@ -1,11 +1,9 @@
 #include "meshes/press/contact_patch.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 #include "meshes/press/press_response.h"
@@ -17,18 +15,11 @@ using Eigen::Matrix2d;
 namespace {
 
 constexpr double highest_peak = 2.0;  ///< b
-/// Of one ellipse, known by enough points: q, and |<z^4>| + |<z^3 z'>|, which is 0 of the pressure.
-/// Measured on domes, hollow and oval fingers under planes, balls, edges and cylinders: 1.31
-/// to 1.49, at most 1.0. A line contact has 2.4, a rectangle, too, two of them 3.8; a ring or three
-/// spots have q below 1.2.
-constexpr double min_q = 1.25, max_q = 1.75, max_uneven = 3.0;
-/// Where the points that bear have most of the ellipse's area, they miss none of their own: the
-/// least q and the largest of the other are stricter there. A flat disc has 4/3 and 0.80 of the
-/// area, a rectangle 7/5 and 0.76.
-constexpr double bearing_share = 0.75, min_q_there = 1.36, max_uneven_there = 1.5;
+/// Σ |F/ΣF - G/ΣG| of an ellipse, at most: domes, hollow and oval fingers under planes, balls,
+/// edges and cylinders have up to 0.06, a flat disc 0.12.
+constexpr double largest_misfit = 0.08;
 /// Second moment of a point's own patch over that of the pressure, along the narrower axis, where
-/// points are enough: on a flat disc 200. Of fewer the moments are chance: on round fingers from
-/// 0.007 on they looked like no ellipse.
+/// points are enough: three spacings of three points over the radius. Of fewer, loads are chance.
 constexpr double fine_enough = 0.005;
 
 /// Integrals over s of the profile with peak b, times s^n, n = 0, 1, 2: Euler's beta functions.
@@ -81,18 +72,13 @@ class CentralMoments {
     const CentralMoments& c = *this;
     return Matrix2d{{c(2, 0), c(1, 1)}, {c(1, 1), c(0, 2)}};
   }
-  /// Of z = u + i v, u and v places along axes in which S is 1: <z^(4 - n) z'^n>, z' conjugate.
-  std::complex<double> fourth(int conjugate) const {
-    const Matrix2d W = second().llt().matrixL().solve(Matrix2d::Identity());
-    const std::complex<double> x(W(0, 0), W(1, 0)), y(W(0, 1), W(1, 1));
-    std::array<std::complex<double>, 5> product{1.0};  // of x^(4 - j) y^j
-    for (int factor = 0; factor < 4; ++factor)
-      for (std::size_t j = 5; j-- > 0;)
-        product[j] = product[j] * (factor < conjugate ? std::conj(x) : x) +
-                     (j > 0 ? product[j - 1] * (factor < conjugate ? std::conj(y) : y) : 0.0);
-    std::complex<double> sum = 0.0;
-    for (std::size_t j = 0; j < 5; ++j) sum += product[j] * (*this)(4 - j, j);
-    return sum;
+  /// Mean t², t = x S^-1 x.
+  double fourth() const {
+    const CentralMoments& c = *this;
+    const Matrix2d T = second().inverse();
+    const double xx = T(0, 0), xy = 2.0 * T(0, 1), yy = T(1, 1);
+    return xx * xx * c(4, 0) + 2.0 * xx * xy * c(3, 1) + (xy * xy + 2.0 * xx * yy) * c(2, 2) +
+           2.0 * xy * yy * c(1, 3) + yy * yy * c(0, 4);
   }
 
  private:
@@ -132,23 +118,32 @@ ContactPatch contact_patch(const ForceMoments& moments, int sectors) {
   const double own = sums.area / force / (4.0 * std::numbers::pi);  // of a disc
   const Matrix2d spread = central.second(), S = spread + own * Matrix2d::Identity();
   const bool is_line = !(spread.determinant() > 1e-12 * spread.squaredNorm());
-  const double q = is_line ? 0.0 : central.fourth(2).real() / 4.0;
-  const double peak = peak_of(q);
+  const double peak = is_line ? 0.0 : peak_of(central.fourth() / 4.0);
   const Profile profile(peak);
   const double square = 2.0 * std::sqrt(std::max(S.determinant(), 0.0)) / profile.mean();  // A B
   const double area = std::numbers::pi * square;
-  if (!is_line && own < fine_enough * spread.selfadjointView<Eigen::Lower>().eigenvalues()[0]) {
-    const double uneven = std::abs(central.fourth(0)) + std::abs(central.fourth(1));
-    const bool flat = sums.touched > bearing_share * area;
-    if (q < (flat ? min_q_there : min_q) || q > max_q ||
-        uneven > (flat ? max_uneven_there : max_uneven))
-      return {std::sqrt(sums.touched / std::numbers::pi), unknown};
-  }
   ContactPatch patch{std::sqrt(square), force * (1.0 + peak) / (area * profile.zeroth)};
   if (S.determinant() > 0.0) patch.ellipse = 0.5 * profile.mean() * S.inverse();
   patch.centre = central.centre();
   patch.peak = peak;
+  patch.touched = sums.touched;
+  patch.is_fine =
+      !is_line && own < fine_enough * spread.selfadjointView<Eigen::Lower>().eigenvalues()[0];
   return patch;
+}
+
+ContactPatch ContactPatch::judged_by(std::span<const PatchLoad> loads) const {
+  if (!is_fine || !is_ellipse()) return *this;
+  double borne = 0.0, expected = 0.0, misfit = 0.0;
+  for (const PatchLoad& load : loads) borne += load.borne, expected += load.expected;
+  for (const PatchLoad& load : loads)
+    misfit += std::abs(load.borne / borne - load.expected / expected);
+  if (misfit < largest_misfit) return *this;
+  ContactPatch without{std::sqrt(touched / std::numbers::pi), unknown};
+  without.centre = centre;
+  without.touched = touched;
+  without.is_fine = true;
+  return without;
 }
 
 double ContactPatch::profile(const Eigen::Vector2d& place) const {
@@ -158,18 +153,33 @@ double ContactPatch::profile(const Eigen::Vector2d& place) const {
   return (std::sqrt(inside) + peak * std::pow(inside, 3.5)) / (1.0 + peak);
 }
 
-ContactPatch contact_patch(const std::vector<LoadedPoint>& points, int sectors) {
-  ForceMoments sums;
-  for (const LoadedPoint& point : points) sums.add(point);
-  return contact_patch(sums, sectors);
-}
-
 ContactPatch contact_patch(std::span<const ContactPoint> field, int sectors) {
   ForceMoments sums;
-  for (const ContactPoint& point : field)
-    if (const double push = -point.force().z(); push > 0.0)
-      sums.add({point.place.head<2>(), push, point.area * std::abs(point.normal.z())});
-  return contact_patch(sums, sectors);
+  const auto seen = [](const ContactPoint& point) {
+    return LoadedPoint{point.place.head<2>(), std::max(-point.force().z(), 0.0),
+                       point.area * std::abs(point.normal.z())};
+  };
+  for (const ContactPoint& point : field) sums.add(seen(point));
+  const ContactPatch patch = contact_patch(sums, sectors);
+  std::vector<PatchLoad> loads;
+  for (const ContactPoint& point : field) {
+    const LoadedPoint here = seen(point);
+    loads.push_back({here.force, here.area * patch.profile(here.place)});
+  }
+  return patch.judged_by(loads);
+}
+
+double largest_pressure(std::span<const ContactPoint> field) {
+  double largest = 0.0;
+  for (const ContactPoint& point : field) largest = std::max(largest, point.normal_traction);
+  const ContactPatch patch = contact_patch(field);
+  if (!patch.is_ellipse()) return largest;
+  const auto away = [&](const ContactPoint& point) {
+    return (point.place.head<2>() - patch.centre).squaredNorm();
+  };
+  const ContactPoint& middle = *std::ranges::min_element(field, {}, away);
+  const double share = patch.profile(middle.place.head<2>());
+  return share > 0.5 ? std::max(largest, middle.normal_traction / share) : largest;
 }
 
 }  // namespace fingertip::meshes::inline press

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "meshes/press/contact_patch.h"
-
 namespace fingertip::meshes::inline press {
 
 using Eigen::Vector2d;
@@ -69,10 +67,9 @@ LimitSurface limit_surface(std::span<const ContactPoint> field, double direction
   double force = 0.0;
   for (const ContactPoint& point : field) force += push_of(point);
   if (!(force > 0.0)) return surface;
-  const ContactPatch patch = contact_patch(field);
   const Vector2d centre = centre_of_pressure(field).head<2>();
   surface.normal_force = force;
-  surface.radius = patch.radius;
+  surface.radius = contact_radius(field);
   for (int i = 0; i <= centres; ++i) {
     const double share = double(i) / centres;
     const double away = i < centres ? surface.radius * share / (1.0 - share)

@@ -20,7 +20,7 @@ struct LimitPoint {
 /// about an instantaneous centre, and every point rubs against it with mu p dA.
 struct LimitSurface {
   double normal_force = unknown;     ///< N [N]
-  double radius = unknown;           ///< a, of contact_patch [m]
+  double radius = unknown;           ///< a, of the circle with the contact's area [m]
   double greatest_moment = unknown;  ///< Σ r p A, turning about the centre of pressure [N m]
   std::vector<LimitPoint> points;    ///< by increasing distance, 0 and infinity among them
   /// How far the ellipse through both ends, F² / N² + M² / greatest_moment² = 1, lies outside at

@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -14,6 +15,7 @@
 
 using namespace fingertip;
 using lattice::TiedPoint;
+using meshes::ContactMode;
 using meshes::ContactPoint;
 using meshes::Vector3;
 
@@ -30,8 +32,11 @@ double hertz(double x, double y) {
 meshes::ContactPatch hertz_patch() {
   meshes::ContactPatch patch{1.0, 1.0};
   patch.ellipse.setIdentity();
+  patch.is_fine = true;
   return patch;
 }
+
+const lattice::ContactLaw without(ContactMode::frictionless), sticks(ContactMode::stick);
 
 /// A contact of radius 1 on a ball: nine points in each cell of a grid of `spacing`, on the first
 /// quadrant or all around, each with the force of Hertz's pressure, peak 1, and `friction` times
@@ -118,7 +123,9 @@ TEST(ContactField, KeepsForceAndTorque) {
   for (const double friction : {0.0, 0.4}) {
     auto points = points_of(0.2, friction);
     share_unevenly(points);
-    const auto field = contact_field(points, hertz_patch(), 1);
+    const auto field = contact_field(
+        points, hertz_patch(), 1,
+        friction > 0.0 ? lattice::ContactLaw(ContactMode::coulomb, friction) : without);
     expect_same_sums(field, touching(points));
     for (const ContactPoint& point : field) {
       EXPECT_GT(point.normal_traction, 0.0);
@@ -137,7 +144,8 @@ TEST(ContactField, IsThatOfTheParticles) {
        {hertz_patch(), meshes::ContactPatch{1.0, meshes::unknown}}) {
     auto points = even;
     share_unevenly(points);
-    const auto field = contact_field(even, patch, 1), other = contact_field(points, patch, 1);
+    const auto field = contact_field(even, patch, 1, sticks),
+               other = contact_field(points, patch, 1, sticks);
     ASSERT_EQ(field.size(), other.size());
     for (std::size_t i = 0; i < field.size(); ++i) {
       if (field[i].place.head<2>().norm() > 0.6) continue;
@@ -170,26 +178,97 @@ TEST(ContactField, SticksWhereMindlinHasIt) {
       point.shear *= slips ? mu * point.normal_traction : held;
       point.state = slips ? meshes::ContactState::slip : meshes::ContactState::stick;
     }
-    const double slips = area_of_slip(contact_field(points, hertz_patch(), 1));
+    const double slips =
+        area_of_slip(contact_field(points, hertz_patch(), 1, {ContactMode::coulomb, mu}));
     EXPECT_NEAR(std::sqrt(1.0 - slips), c, 0.05) << "ties: " << area_of_slip(touching(points));
     EXPECT_GT(area_of_slip(touching(points)), slips);
   }
 }
 
+/// However unevenly the ties share their load: sliding along, turning on the spot, turning about a
+/// place beside, and sliding in part. On a ball normals differ from point to point.
+TEST(ContactField, ShearsNoMoreThanFrictionAllows) {
+  constexpr double mu = 0.4;
+  const auto along = [](const Vector3&) { return Vector3::UnitX().eval(); };
+  const auto about = [](double x) {
+    return [x](const Vector3& place) {
+      return Vector3(-place.y(), place.x() - x, 0.0).normalized().eval();
+    };
+  };
+  const std::vector<std::function<Vector3(const Vector3&)>> ways{along, about(0.0), about(0.4),
+                                                                 about(3.0)};
+  for (const bool noisy : {false, true})
+    for (const double spacing : {0.12, 0.25})
+      for (const double share : {1.0, 0.6})
+        for (const auto& way : ways) {
+          auto points = points_of(spacing, 0.0);
+          if (noisy) share_unevenly(points);
+          for (TiedPoint& tied : points) {
+            ContactPoint& point = tied.point;
+            point.normal_traction = std::max(point.normal_traction, 0.0);
+            const Vector3 direction = way(point.place);
+            const double r = point.place.head<2>().norm();
+            point.shear = direction - direction.dot(point.normal) * point.normal;
+            point.shear.normalize();
+            point.shear *= mu * point.normal_traction * (r < 0.5 ? share : 1.0);
+            point.state = meshes::ContactState::slip;
+          }
+          const auto patch = lattice::tied_patch(points, 1);
+          const auto field = contact_field(points, patch, 1, {ContactMode::coulomb, mu});
+          expect_same_sums(field, touching(points));
+          double most = 0.0;
+          for (const ContactPoint& point : field)
+            most = std::max(most, point.shear.norm() / (mu * point.normal_traction));
+          EXPECT_LE(most, 1.0 + 1e-9) << noisy << " " << spacing << " " << share;
+          EXPECT_GT(most, 0.99);
+        }
+}
+
+/// Radius, area and peak are those of the field, and the ellipse's where there is one.
+TEST(ContactField, HasThePatchsArea) {
+  for (const double spacing : {0.1, 0.17, 0.3}) {
+    auto points = points_of(spacing, 0.3);
+    share_unevenly(points);
+    const auto patch = lattice::tied_patch(points, 1);
+    ASSERT_TRUE(patch.is_ellipse());
+    const auto field = contact_field(points, 1, sticks);
+    EXPECT_NEAR(contact_radius(field), patch.radius, 1e-12) << spacing;
+    EXPECT_NEAR(largest_pressure(field), 1.0, 0.03) << spacing;
+    const auto own = contact_patch(field);
+    EXPECT_TRUE(own.is_ellipse());
+    EXPECT_NEAR(own.radius, patch.radius, 0.02) << spacing;
+  }
+}
+
+/// Ties with the forces of Hertz on the squares around them, some of which its edge cuts.
 TEST(ContactField, OfHertzIsHertz) {
-  EXPECT_LT(error(contact_field(points_of(0.15, 0.0), hertz_patch(), 1)), 2e-3);
+  const auto error_at = [](double spacing, const meshes::ContactPatch& patch) {
+    auto points = points_of(spacing, 0.0);
+    constexpr int parts = 20;
+    const double width = spacing / per_cell;
+    for (TiedPoint& tied : points) {
+      double sum = 0.0;
+      for (int i = 0; i < parts * parts; ++i) {
+        const double right = (i % parts + 0.5) / parts - 0.5, up = (i / parts + 0.5) / parts - 0.5;
+        sum += hertz(tied.point.place.x() + right * width, tied.point.place.y() + up * width);
+      }
+      tied.point.normal_traction = sum / (parts * parts);
+    }
+    return error(contact_field(points, patch, 1, without));
+  };
+  EXPECT_LT(error_at(0.15, hertz_patch()), 6e-3);
+  EXPECT_LT(error_at(0.3, hertz_patch()), 1e-2);
   // Without a profile the edge is that of the points.
   const meshes::ContactPatch none{1.0, meshes::unknown};
-  const double coarse = error(contact_field(points_of(0.15, 0.0), none, 1)),
-               fine = error(contact_field(points_of(0.075, 0.0), none, 1));
+  const double coarse = error_at(0.15, none), fine = error_at(0.075, none);
   EXPECT_LT(coarse, 0.06);
   EXPECT_LT(fine, 0.6 * coarse);
 }
 
 /// A contact of which a quarter is computed.
 TEST(ContactField, OfAQuarterIsTheWhole) {
-  const auto whole = contact_field(points_of(0.2, 0.0), hertz_patch(), 1),
-             quarter = contact_field(points_of(0.2, 0.0, true), hertz_patch(), 4);
+  const auto whole = contact_field(points_of(0.2, 0.0), hertz_patch(), 1, without),
+             quarter = contact_field(points_of(0.2, 0.0, true), hertz_patch(), 4, without);
   ASSERT_EQ(whole.size(), quarter.size());
   for (const ContactPoint& point : quarter) {
     const auto found = std::ranges::find_if(whole, [&](const ContactPoint& other) {
@@ -202,7 +281,7 @@ TEST(ContactField, OfAQuarterIsTheWhole) {
 
 /// Fewer points than six sums need: none, one, two, some in a line; an ellipse between them.
 TEST(ContactField, OfFewPoints) {
-  EXPECT_TRUE(contact_field(std::vector<TiedPoint>{}, hertz_patch(), 1).empty());
+  EXPECT_TRUE(contact_field(std::vector<TiedPoint>{}, hertz_patch(), 1, sticks).empty());
   meshes::ContactPatch narrow = hertz_patch();
   narrow.ellipse(1, 1) = 1e12;
   narrow.centre.y() = 0.01;
@@ -216,10 +295,10 @@ TEST(ContactField, OfFewPoints) {
     tied.point.normal_traction = 1.0 + i % 2;
     tied.point.shear = {0.3, 0.1 * i, 0.0};
     for (const auto& patch : {hertz_patch(), narrow, meshes::ContactPatch{}}) {
-      const auto field = contact_field(points, patch, 1);
+      const auto field = contact_field(points, patch, 1, sticks);
       expect_same_sums(field, touching(points));
       for (std::size_t j = 0; j <= i; ++j)  // a particle itself
-        EXPECT_NEAR(field[j].normal_traction, points[j].point.normal_traction, 1e-13);
+        EXPECT_LT((field[j].force() - points[j].point.force()).norm(), 1e-15);
     }
   }
 }

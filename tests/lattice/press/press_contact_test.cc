@@ -14,6 +14,7 @@
 #include "lattice/press/static_press.h"
 #include "meshes/press/contact_map.h"
 #include "meshes/press/contact_patch.h"
+#include "meshes/press/limit_surface.h"
 #include "tests/expectations.h"
 #include "tests/lattice/presses.h"
 
@@ -50,6 +51,16 @@ std::map<double, Field> continuum(ContactMode contact) {
       fields[ring.indentation].push_back(point);
   }
   return fields;
+}
+
+/// From the two innermost rings: p² goes with r² there.
+double pressure_in_the_middle(const Field& rings) {
+  std::map<double, double> square;
+  for (const ContactPoint& point : rings)
+    square[point.place.head<2>().squaredNorm()] = std::pow(point.normal_traction, 2);
+  const auto [first, inner] = *square.begin();
+  const auto [second, outer] = *square.upper_bound(1.01 * first);
+  return std::sqrt(inner + (inner - outer) / (second - first) * first);
 }
 
 Field at_sample(const std::vector<ContactPoint>& contact, std::size_t sample) {
@@ -108,6 +119,10 @@ TEST(PressContact, IsTheContinuums) {
         EXPECT_LT(std::abs(d.peak), 0.05);
         EXPECT_LT(std::abs(d.radius) * cells, 0.25);
         EXPECT_LT(d.centre, 1e-3 * sample.contact_radius);
+        EXPECT_LT(std::abs(largest_pressure(field) /
+                               pressure_in_the_middle(truth.at(sample.indentation)) -
+                           1.0),
+                  cells < 3.0 ? 0.06 : 0.03);
         const double own = contact_patch(field).radius;
         EXPECT_NEAR(own, sample.contact_radius, 0.06 * setup.lattice.spacing);
         EXPECT_GT(own, radius);
@@ -152,6 +167,109 @@ TEST(PressContact, AddsUpToForceAndTorque) {
           EXPECT_EQ(point.state, meshes::ContactState::slip);
         }
       }
+    }
+}
+
+/// Area, radius, mean and largest pressure of a row are those of its field, whatever touches.
+TEST(PressContact, RowsAreOfTheirField) {
+  for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite})
+    for (const ContactMode contact : {ContactMode::frictionless, ContactMode::stick})
+      for (const double per_radius : {5.0, 9.0})
+        for (const bool ball : {false, true}) {
+          PressSetup setup = presses::setup_of({.model = ModelKind::network,
+                                                .per_radius = per_radius,
+                                                .contact = contact,
+                                                .samples = {0.4e-3, 1.5e-3},
+                                                .kinematics = kinematics});
+          setup.protocol.tilt = ball ? 0.0 : 0.1;
+          if (ball) {
+            setup.protocol.obstacle.shape = meshes::ObstacleShape::sphere;
+            setup.protocol.obstacle.radius = 6e-3;
+          }
+          const auto outcome = lattice::run_static_press(setup);
+          const auto& samples = outcome.response.samples();
+          for (std::size_t i = 0; i < samples.size(); ++i) {
+            const Field field = at_sample(outcome.contact, i + 1);
+            double area = 0.0, largest = 0.0;
+            for (const ContactPoint& point : field) {
+              area += point.area * std::abs(point.normal.z());
+              largest = std::max(largest, point.normal_traction);
+            }
+            EXPECT_NEAR(samples[i].contact_area, area, 1e-12 * area);
+            EXPECT_NEAR(samples[i].mean_pressure, samples[i].normal_force / area,
+                        1e-9 * samples[i].mean_pressure);
+            EXPECT_GE(samples[i].max_pressure, largest);
+            EXPECT_LT(samples[i].max_pressure, (i == 0 ? 1.1 : 1.02) * largest);
+            EXPECT_NEAR(limit_surface(field).radius, samples[i].contact_radius,
+                        1e-12 * samples[i].contact_radius);
+          }
+        }
+}
+
+/// A soft pad with a flat face, sharp or rounded at its rim: no ellipse. 6.68 kPa is the
+/// continuum's (fingertip reference, tolerance 0.001).
+TEST(PressContact, OfAPadIsItsFace) {
+  using enum meshes::ProfileSurface;
+  const double R = 0.01, rim = 1e-3;
+  const auto sharp = meshes::Geometry::of_profile(
+                 {{0.0, R, contact}, {R, R, free}, {R, 0.0, bond}, {0.0, 0.0, axis}}),
+             rounded = meshes::Geometry::of_profile(
+                 {{0.0, R, contact},
+                  {R - rim, R, contact, meshes::ProfileCurve::arc, R - rim, R - rim},
+                  {R, R - rim, free},
+                  {R, 0.0, bond},
+                  {0.0, 0.0, axis}});
+  const auto press = [](const meshes::Geometry& geometry, double depth, double per_radius) {
+    PressSetup setup = presses::setup_of({.model = ModelKind::hookean,
+                                          .per_radius = per_radius,
+                                          .contact = ContactMode::frictionless,
+                                          .samples = {depth},
+                                          .geometry = geometry});
+    setup.rubber.youngs_modulus = 1e5;
+    setup.rubber.shear_modulus = 1e5 / 2.9;
+    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+    return lattice::run_static_press(setup);
+  };
+  for (const double per_radius : {8.0, 12.0}) {
+    const auto flat = press(sharp, 0.5e-3, per_radius);
+    const PressSample& sample = flat.response.back();
+    EXPECT_NEAR(sample.contact_radius, R, 1e-3 * R) << per_radius;
+    EXPECT_NEAR(sample.max_pressure, 6680.0, 0.05 * 6680.0) << per_radius;
+    EXPECT_FALSE(contact_patch(flat.contact).is_ellipse());
+    const auto round = press(rounded, 1.67e-5, per_radius);
+    // The rim bears most; there no lattice resolves the pressure.
+    EXPECT_NEAR(round.response.back().contact_radius, R - rim, 0.6 * R / per_radius) << per_radius;
+    EXPECT_GT(round.response.back().max_pressure, 500.0) << per_radius;
+    EXPECT_FALSE(contact_patch(round.contact).is_ellipse());
+  }
+}
+
+/// However small friction is, what slid in the last step slips, and no shear exceeds mu p.
+TEST(PressContact, SlipsAllOver) {
+  for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite})
+    for (const double mu : {0.3, 1e-2, 1e-4, 1e-6}) {
+      SCOPED_TRACE(std::to_string(mu) + (kinematics == Kinematics::finite ? " finite" : " small"));
+      PressSetup setup = presses::setup_of({.model = ModelKind::network,
+                                            .per_radius = 6,
+                                            .contact = ContactMode::coulomb,
+                                            .samples = {1e-3},
+                                            .kinematics = kinematics});
+      setup.protocol.friction = mu;
+      setup.protocol.lateral = 1.2e-3;
+      setup.protocol.lateral_path = meshes::LateralPath::after;
+      setup.protocol.lateral_samples = 1;
+      const auto outcome = lattice::run_static_press(setup);
+      const PressSample& last = outcome.response.back();
+      EXPECT_NEAR(std::hypot(last.lateral_force_x, last.lateral_force_y), mu * last.normal_force,
+                  1e-3 * mu * last.normal_force);
+      double slips = 0.0, area = 0.0;
+      for (const ContactPoint& point :
+           at_sample(outcome.contact, outcome.response.samples().size())) {
+        area += point.area;
+        slips += point.state == meshes::ContactState::slip ? point.area : 0.0;
+        EXPECT_LE(point.shear.norm(), (1.0 + 1e-9) * mu * point.normal_traction);
+      }
+      EXPECT_GT(slips, 0.999 * area);
     }
 }
 
@@ -218,6 +336,9 @@ TEST(PressContact, OfASlowPressIsThatAtRest) {
                 0.02 * sample.normal_force);
     const Field other = at_sample(resting.contact, std::size_t(compared));
     EXPECT_LT(difference(field, other).pressure_l2, 0.02) << sample.indentation;
+    // Of the end of a step, brought back to the depth that was asked for.
+    EXPECT_NEAR(sample.contact_radius, contact_radius(field), 5e-3 * sample.contact_radius);
+    EXPECT_NEAR(sample.max_pressure, largest_pressure(field), 1e-2 * sample.max_pressure);
     for (const ContactPoint& point : field) EXPECT_EQ(point.state, meshes::ContactState::stick);
   }
   EXPECT_EQ(compared, 2);

@@ -13,6 +13,8 @@
 #include <vector>
 
 using namespace fingertip;
+using meshes::ContactPatch;
+using meshes::ContactPoint;
 using meshes::LoadedPoint;
 
 namespace {
@@ -35,13 +37,28 @@ std::vector<LoadedPoint> hertzian_points(double A, double B, double raster, doub
   return points;
 }
 
+ContactPatch patch_of(const std::vector<LoadedPoint>& points, int sectors = 1) {
+  meshes::ForceMoments sums;
+  for (const LoadedPoint& point : points) sums.add(point);
+  return contact_patch(sums, sectors);
+}
+
+/// As if each point hung on a particle of its own, for those who know what particles bear.
+ContactPatch judged(const std::vector<LoadedPoint>& points) {
+  const ContactPatch patch = patch_of(points);
+  std::vector<meshes::PatchLoad> loads;
+  for (const LoadedPoint& point : points)
+    loads.push_back({point.force, point.area * patch.profile(point.place)});
+  return patch.judged_by(loads);
+}
+
 }  // namespace
 
 TEST(ContactPatch, MeasuresHertzThroughNoise) {
-  const auto smooth = contact_patch(hertzian_points(1.0, 1.0, 0.05, 0.0));
+  const auto smooth = patch_of(hertzian_points(1.0, 1.0, 0.05, 0.0));
   EXPECT_NEAR(smooth.radius, 1.0, 3e-3);
   EXPECT_NEAR(smooth.max_pressure, 1.0, 0.01);
-  const auto rough = contact_patch(hertzian_points(1.4, 0.8, 0.05, 1.0));
+  const auto rough = patch_of(hertzian_points(1.4, 0.8, 0.05, 1.0));
   EXPECT_NEAR(rough.radius, std::sqrt(1.4 * 0.8), 0.03);
   EXPECT_NEAR(rough.max_pressure, 1.0, 0.05);
 }
@@ -65,7 +82,7 @@ TEST(ContactPatch, MeasuresAPeakedPressure) {
           (1.0 - share) * std::pow(pressure[k - 1], 2) + share * std::pow(pressure[k], 2);
       points.push_back({{x, y}, std::sqrt(square) * raster * raster, raster * raster});
     }
-  const auto patch = contact_patch(points, 4);
+  const auto patch = patch_of(points, 4);
   EXPECT_NEAR(patch.radius, 1.0, 0.01);
   EXPECT_NEAR(patch.max_pressure, 1.0, 0.02);
 }
@@ -79,7 +96,7 @@ TEST(ContactPatch, TellsWhatIsNoEllipse) {
       for (double y = -10.0 + raster / 2; y < 10.0; y += raster)
         if (bears(x, y))
           points.push_back({{x + 3.0, y - 1.0}, 5.0 * raster * raster, raster * raster});
-    return contact_patch(points);
+    return judged(points);
   };
   const auto pads =
                  where([](double x, double y) { return std::abs(x) > 6.0 && std::abs(y) < 5.0; }),
@@ -97,9 +114,54 @@ TEST(ContactPatch, TellsWhatIsNoEllipse) {
   }
   std::vector<LoadedPoint> turned = hertzian_points(1.6, 0.8, 0.05, 0.0);
   for (LoadedPoint& point : turned) point.place = Eigen::Rotation2Dd(0.5) * point.place;
-  const auto ellipse = contact_patch(turned);
+  const auto ellipse = judged(turned);
   EXPECT_NEAR(ellipse.radius, std::sqrt(1.6 * 0.8), 5e-3);
   EXPECT_NEAR(ellipse.max_pressure, 1.0, 0.02);
+}
+
+/// The pressure under a soft pad is the more like Hertz's the nearer its rubber is to
+/// incompressible; but the face ends.
+TEST(ContactPatch, TellsAFaceWhateverItsPressure) {
+  constexpr double raster = 0.1;
+  for (const double edge : {1.0, 0.7, 0.4}) {
+    std::vector<LoadedPoint> points;
+    for (double x = -6.0 + raster / 2; x < 6.0; x += raster)
+      for (double y = -6.0 + raster / 2; y < 6.0; y += raster) {
+        const double s = (x * x + y * y) / 25.0;
+        if (s < 1.0)
+          points.push_back({{x, y}, (1.0 - (1.0 - edge) * s) * raster * raster, raster * raster});
+      }
+    const ContactPatch patch = judged(points);
+    EXPECT_FALSE(patch.is_ellipse()) << edge;
+    EXPECT_NEAR(patch.radius, 5.0, 0.02) << edge;
+    EXPECT_GT(std::abs(patch_of(points).radius - 5.0), 0.1) << edge;
+  }
+}
+
+/// Where no point lies in its middle, Hertz's pressure there follows from those around it.
+TEST(ContactPatch, FindsTheLargestPressureBetweenPoints) {
+  const auto field_of = [](const std::vector<LoadedPoint>& points) {
+    std::vector<ContactPoint> field;
+    for (const LoadedPoint& loaded : points) {
+      if (!(loaded.force > 0.0)) continue;
+      ContactPoint& point = field.emplace_back();
+      point.place.head<2>() = loaded.place;
+      point.area = loaded.area;
+      point.normal_traction = loaded.force / loaded.area;
+    }
+    return field;
+  };
+  const auto field = field_of(hertzian_points(1.0, 1.0, 0.3, 0.0));
+  double largest = 0.0;
+  for (const ContactPoint& point : field) largest = std::max(largest, point.normal_traction);
+  EXPECT_LT(largest, 0.98);
+  EXPECT_NEAR(largest_pressure(field), 1.0, 0.01);
+  EXPECT_EQ(largest_pressure(std::vector<ContactPoint>{}), 0.0);
+  std::vector<ContactPoint> face = field_of(hertzian_points(1.0, 1.0, 0.02, 0.0));
+  for (ContactPoint& point : face) point.normal_traction = 2.0 + point.place.x();
+  EXPECT_EQ(largest_pressure(face), std::ranges::max(face, {}, [](const ContactPoint& point) {
+                                      return point.normal_traction;
+                                    }).normal_traction);
 }
 
 TEST(ContactPatch, SectorsAreMirrored) {
@@ -111,17 +173,17 @@ TEST(ContactPatch, SectorsAreMirrored) {
     half.push_back(point);
     if (point.place.x() > 0.0) quarter.push_back(point);
   }
-  const auto expected = contact_patch(whole);
-  for (const auto& part : {contact_patch(half, 2), contact_patch(quarter, 4)}) {
+  const auto expected = patch_of(whole);
+  for (const auto& part : {patch_of(half, 2), patch_of(quarter, 4)}) {
     EXPECT_NEAR(part.radius, expected.radius, 1e-12);
     EXPECT_NEAR(part.max_pressure, expected.max_pressure, 1e-12);
   }
 }
 
 TEST(ContactPatch, NothingAndASinglePoint) {
-  EXPECT_EQ(contact_patch(std::vector<LoadedPoint>{}, 4).radius, 0.0);
-  EXPECT_EQ(contact_patch(std::vector<LoadedPoint>{{{0.0, 0.0}, 0.0, 1.0}}).max_pressure, 0.0);
-  const auto single = contact_patch(std::vector<LoadedPoint>{{{0.2, 0.1}, 3.0, 2.0}});
+  EXPECT_EQ(patch_of(std::vector<LoadedPoint>{}, 4).radius, 0.0);
+  EXPECT_EQ(patch_of(std::vector<LoadedPoint>{{{0.0, 0.0}, 0.0, 1.0}}).max_pressure, 0.0);
+  const auto single = patch_of(std::vector<LoadedPoint>{{{0.2, 0.1}, 3.0, 2.0}});
   EXPECT_NEAR(single.radius, std::sqrt(5.0 * 2.0 / (4.0 * std::numbers::pi)), 1e-14);
   EXPECT_NEAR(single.max_pressure, 1.5 * 3.0 / (std::numbers::pi * single.radius * single.radius),
               1e-14);
