@@ -366,18 +366,20 @@ ContactPatch tied_patch(std::span<const TiedPoint> points, int sectors) {
           {tied.point.place.head<2>(), std::max(-tied.point.force().z(), 0.0), seen(tied.point)});
   const ContactPatch patch = contact_patch(sums, sectors);
   std::unordered_map<std::uint32_t, meshes::PatchLoad> particles;
+  double pushed = 0.0, bare = 0.0;
   for (const TiedPoint& tied : points) {
     const double profile = patch.profile(tied.point.place.head<2>());
     if (!tied.touches() && !(profile > 0.0)) continue;
+    if (profile > 0.0) (tied.touches() ? pushed : bare) += seen(tied.point);
     for (std::size_t c = 0; c < 8; ++c) {
       meshes::PatchLoad& load = particles[tied.particles[c]];
       load.borne += tied.weights[c] * std::max(-tied.point.force().z(), 0.0);
-      load.expected += tied.weights[c] * seen(tied.point) * profile;
+      load.expected += tied.weights[c] * seen(tied.point) * patch.max_pressure * profile;
     }
   }
   std::vector<meshes::PatchLoad> loads;
   for (const auto& [particle, load] : particles) loads.push_back(load);
-  return patch.judged_by(loads);
+  return patch.judged_by(loads, bare / (pushed + bare));
 }
 
 }  // namespace fingertip::lattice::inline contact

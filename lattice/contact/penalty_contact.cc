@@ -434,13 +434,14 @@ meshes::ContactPatch PenaltyContact::patch() const {
     sums.touched += p.touched;
   }
   const meshes::ContactPatch patch = contact_patch(sums, model_->sector.count());
-  return patch.is_fine ? patch.judged_by(patch_loads(patch, view)) : patch;
+  return patch.is_fine ? judged(patch, view) : patch;
 }
 
-/// Per contact particle, of the groups that touch.
-std::vector<meshes::PatchLoad> PenaltyContact::patch_loads(const meshes::ContactPatch& patch,
-                                                           const kernel::PatchView& view) const {
+/// By the loads of the contact particles, from the groups that touch.
+meshes::ContactPatch PenaltyContact::judged(const meshes::ContactPatch& patch,
+                                            const kernel::PatchView& view) const {
   std::vector<meshes::PatchLoad> loads(shape_->particles.size());
+  double pushed = 0.0, bare = 0.0;
   const auto along = [](const double* direction, const kernel::Lanes* at, std::size_t lane) {
     return direction[0] * at[0].at[lane] + direction[1] * at[1].at[lane] +
            direction[2] * at[2].at[lane];
@@ -453,9 +454,11 @@ std::vector<meshes::PatchLoad> PenaltyContact::patch_loads(const meshes::Contact
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!(group.stiffness.at[lane] > 0.0)) continue;  // repeats the first
       const double push = memory.push.at[lane],
-                   expected = std::abs(along(view.normal, group.facing, lane)) *
+                   area = std::abs(along(view.normal, group.facing, lane)),
+                   expected = area * patch.max_pressure *
                               patch.profile({along(view.tangent[0], place, lane),
                                              along(view.tangent[1], place, lane)});
+      if (expected > 0.0) (push > 0.0 ? pushed : bare) += area;
       const EmbeddedPoint& tie = model_->outer[shape_->points[number * lanes + lane]];
       for (std::size_t c = 0; c < 8; ++c) {
         meshes::PatchLoad& load = loads[group.particle[c]];
@@ -464,7 +467,7 @@ std::vector<meshes::PatchLoad> PenaltyContact::patch_loads(const meshes::Contact
       }
     }
   }
-  return loads;
+  return patch.judged_by(loads, bare / (pushed + bare));
 }
 
 std::vector<std::uint8_t> PenaltyContact::held() const {

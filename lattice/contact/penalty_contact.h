@@ -111,8 +111,8 @@ class PenaltyContact {
   std::size_t looks_per_step(const State& state, double step);
   double distance(const Plane& plane) const;
   kernel::PatchView patch_view() const;
-  std::vector<meshes::PatchLoad> patch_loads(const meshes::ContactPatch& patch,
-                                             const kernel::PatchView& view) const;
+  meshes::ContactPatch judged(const meshes::ContactPatch& patch,
+                              const kernel::PatchView& view) const;
 
   const LatticeModel* model_;
   Team* team_;

@@ -15,9 +15,8 @@ using Eigen::Matrix2d;
 namespace {
 
 constexpr double highest_peak = 2.0;  ///< b
-/// Σ |F/ΣF - G/ΣG| of an ellipse, at most: domes, hollow and oval fingers under planes, balls,
-/// edges and cylinders have up to 0.06, a flat disc 0.12.
-constexpr double largest_misfit = 0.08;
+/// Of an ellipse at most: its misfit; and at least: what of its surface is not pushed.
+constexpr double largest_misfit = 0.11, least_bare = 0.01;
 /// Second moment of a point's own patch over that of the pressure, along the narrower axis, where
 /// points are enough: three spacings of three points over the radius. Of fewer, loads are chance.
 constexpr double fine_enough = 0.005;
@@ -132,13 +131,15 @@ ContactPatch contact_patch(const ForceMoments& moments, int sectors) {
   return patch;
 }
 
-ContactPatch ContactPatch::judged_by(std::span<const PatchLoad> loads) const {
+ContactPatch ContactPatch::judged_by(std::span<const PatchLoad> loads, double bare) const {
   if (!is_fine || !is_ellipse()) return *this;
-  double borne = 0.0, expected = 0.0, misfit = 0.0;
-  for (const PatchLoad& load : loads) borne += load.borne, expected += load.expected;
-  for (const PatchLoad& load : loads)
-    misfit += std::abs(load.borne / borne - load.expected / expected);
-  if (misfit < largest_misfit) return *this;
+  double borne = 0.0, lacking = 0.0, misfit = 0.0;
+  for (const PatchLoad& load : loads) {
+    borne += load.borne;
+    lacking += load.borne - load.expected;
+    misfit += std::abs(load.borne - load.expected);
+  }
+  if (misfit + std::abs(lacking) < largest_misfit * borne && bare > least_bare) return *this;
   ContactPatch without{std::sqrt(touched / std::numbers::pi), unknown};
   without.centre = centre;
   without.touched = touched;
@@ -164,7 +165,7 @@ ContactPatch contact_patch(std::span<const ContactPoint> field, int sectors) {
   std::vector<PatchLoad> loads;
   for (const ContactPoint& point : field) {
     const LoadedPoint here = seen(point);
-    loads.push_back({here.force, here.area * patch.profile(here.place)});
+    loads.push_back({here.force, here.area * patch.max_pressure * patch.profile(here.place)});
   }
   return patch.judged_by(loads);
 }

@@ -49,8 +49,9 @@ struct ContactPatch {
   /// Pressure at a place over that in the middle, 0 outside; of an ellipse.
   double profile(const Eigen::Vector2d& place) const;
   /// The same where these are loads of an ellipse; else, where points are many, without one: the
-  /// radius is that of the points' own area, the largest pressure unknown.
-  ContactPatch judged_by(std::span<const PatchLoad> loads) const;
+  /// radius is that of the points' own area, the largest pressure unknown. `bare`: share of the
+  /// surface in the ellipse that is not pushed, of whoever knows such points; a face has none.
+  ContactPatch judged_by(std::span<const PatchLoad> loads, double bare = 1.0) const;
 };
 
 /// Both from moments of the forces, for neighbouring points share their load unevenly (their ties
@@ -70,9 +71,11 @@ struct ContactPatch {
 ///
 /// Moments fit an ellipse to anything: to the face of a pad one that is wider than the face. So
 /// whoever knows the loads of the particles, which are right where those of ties are not, judges
-/// it (ContactPatch::judged_by): Σ |F/ΣF - G/ΣG| over particles, F what they bear, G what the
-/// ellipse's pressure on the surface there is would load them with, is 0.02 to 0.06 on domes of
-/// three and more spacings over the radius, 0.12 and more on pads.
+/// it (ContactPatch::judged_by): (Σ |F - G| + |Σ (F - G)|)/ΣF over particles, F what they bear, G
+/// what the ellipse's pressure on the surface there is would load them with, is 0.02 to 0.064 on
+/// domes of three and more spacings over the radius, 0.17 and more on flat pads. A nearly
+/// incompressible pad's pressure may be as an ellipse's, but all of its points are pushed: on
+/// domes up to 94 % of the area.
 ///
 /// `sectors` (1, 2 or 4): the points are the whole contact, its half t2 >= 0 or its quarter
 /// t1, t2 >= 0. Zeros without a loaded point.

@@ -231,12 +231,12 @@ TEST(PressContact, OfAPadIsItsFace) {
     return lattice::run_static_press(setup);
   };
   for (const double per_radius : {8.0, 12.0}) {
-    const auto flat = press(sharp, 0.5e-3, per_radius);
+    auto flat = press(sharp, 0.5e-3, per_radius);
     const PressSample& sample = flat.response.back();
     EXPECT_NEAR(sample.contact_radius, R, 1e-3 * R) << per_radius;
     EXPECT_NEAR(sample.max_pressure, 6680.0, 0.05 * 6680.0) << per_radius;
     EXPECT_FALSE(contact_patch(flat.contact).is_ellipse());
-    const auto round = press(rounded, 1.67e-5, per_radius);
+    auto round = press(rounded, 1.67e-5, per_radius);
     // The rim bears most; there no lattice resolves the pressure.
     EXPECT_NEAR(round.response.back().contact_radius, R - rim, 0.6 * R / per_radius) << per_radius;
     EXPECT_GT(round.response.back().max_pressure, 500.0) << per_radius;
@@ -258,7 +258,7 @@ TEST(PressContact, SlipsAllOver) {
       setup.protocol.lateral = 1.2e-3;
       setup.protocol.lateral_path = meshes::LateralPath::after;
       setup.protocol.lateral_samples = 1;
-      const auto outcome = lattice::run_static_press(setup);
+      auto outcome = lattice::run_static_press(setup);
       const PressSample& last = outcome.response.back();
       EXPECT_NEAR(std::hypot(last.lateral_force_x, last.lateral_force_y), mu * last.normal_force,
                   1e-3 * mu * last.normal_force);

@@ -43,13 +43,14 @@ ContactPatch patch_of(const std::vector<LoadedPoint>& points, int sectors = 1) {
   return contact_patch(sums, sectors);
 }
 
-/// As if each point hung on a particle of its own, for those who know what particles bear.
-ContactPatch judged(const std::vector<LoadedPoint>& points) {
+/// As if each point hung on a particle of its own, for those who know what particles bear and
+/// whether all points are pushed.
+ContactPatch judged(const std::vector<LoadedPoint>& points, double bare = 1.0) {
   const ContactPatch patch = patch_of(points);
   std::vector<meshes::PatchLoad> loads;
   for (const LoadedPoint& point : points)
-    loads.push_back({point.force, point.area * patch.profile(point.place)});
-  return patch.judged_by(loads);
+    loads.push_back({point.force, point.area * patch.max_pressure * patch.profile(point.place)});
+  return patch.judged_by(loads, bare);
 }
 
 }  // namespace
@@ -131,7 +132,7 @@ TEST(ContactPatch, TellsAFaceWhateverItsPressure) {
         if (s < 1.0)
           points.push_back({{x, y}, (1.0 - (1.0 - edge) * s) * raster * raster, raster * raster});
       }
-    const ContactPatch patch = judged(points);
+    const ContactPatch patch = judged(points, 0.0);
     EXPECT_FALSE(patch.is_ellipse()) << edge;
     EXPECT_NEAR(patch.radius, 5.0, 0.02) << edge;
     EXPECT_GT(std::abs(patch_of(points).radius - 5.0), 0.1) << edge;
