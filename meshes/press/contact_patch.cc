@@ -17,6 +17,9 @@ namespace {
 constexpr double highest_peak = 2.0;  ///< b
 /// Of an ellipse at most: its misfit; and at least: what of its surface is not pushed.
 constexpr double largest_misfit = 0.11, least_bare = 0.01;
+/// Where the points that are pushed have less than this share of the ellipse's area, as of a narrow
+/// line, they miss much of their own, and a worse ellipse is still nearer. A ring has more misfit.
+constexpr double known_share = 0.55, largest_misfit_of_few = 0.5;
 /// Second moment of a point's own patch over that of the pressure, along the narrower axis, where
 /// points are enough: three spacings of three points over the radius. Of fewer, loads are chance.
 constexpr double fine_enough = 0.005;
@@ -139,7 +142,9 @@ ContactPatch ContactPatch::judged_by(std::span<const PatchLoad> loads, double ba
     lacking += load.borne - load.expected;
     misfit += std::abs(load.borne - load.expected);
   }
-  if (misfit + std::abs(lacking) < largest_misfit * borne && bare > least_bare) return *this;
+  const bool few = touched < known_share * std::numbers::pi * radius * radius;
+  const double largest = few ? largest_misfit_of_few : largest_misfit;
+  if (misfit + std::abs(lacking) < largest * borne && bare > least_bare) return *this;
   ContactPatch without{std::sqrt(touched / std::numbers::pi), unknown};
   without.centre = centre;
   without.touched = touched;

@@ -261,7 +261,7 @@ TEST(PressContact, SlipsAllOver) {
       auto outcome = lattice::run_static_press(setup);
       const PressSample& last = outcome.response.back();
       EXPECT_NEAR(std::hypot(last.lateral_force_x, last.lateral_force_y), mu * last.normal_force,
-                  1e-3 * mu * last.normal_force);
+                  (1e-3 * mu + 1e-8) * last.normal_force);  // 1e-8: the solver
       double slips = 0.0, area = 0.0;
       for (const ContactPoint& point :
            at_sample(outcome.contact, outcome.response.samples().size())) {

@@ -168,10 +168,12 @@ TEST(SolidPress, TwoPadsAreNoRoundSpot) {
       EXPECT_GT(sample.normal_force, 0.0);
       EXPECT_NEAR(sample.contact_radius, std::sqrt(80.0 / std::numbers::pi) * mm, 0.025 * mm);
       EXPECT_NEAR(sample.mean_pressure, sample.normal_force / (80.0 * mm * mm),
-                  5e-3 * sample.mean_pressure);
-      EXPECT_GT(sample.max_pressure, sample.mean_pressure);
-      EXPECT_LT(sample.max_pressure, 2.0 * sample.mean_pressure);
+                  0.015 * sample.mean_pressure);
     }
+    // The rod feels the pads later than the plane does.
+    const auto& last = response.samples().back();
+    EXPECT_GT(last.max_pressure, last.mean_pressure);
+    EXPECT_LT(last.max_pressure, 2.0 * last.mean_pressure);
   };
   expect_pads(lattice::run_static_press(press).response);
   press.protocol.mode = DriveMode::quasi_static;
