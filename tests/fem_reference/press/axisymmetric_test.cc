@@ -139,10 +139,10 @@ TEST(Meridian, PressesAPadFarAndSaysHowSureItIs) {
     job.geometry = pad(0.01, 0.01);
     job.rubber.youngs_modulus = 1e5;
     job.rubber.shear_modulus = 1e5 / 2.9;
-    job.tolerance = 0.01;
+    job.tolerance = 0.03;
     job.press_to({1e-4, 5e-4, 1e-3});
     const std::vector<PressState> coarse = converged(job);
-    job.tolerance = 1e-3;
+    job.tolerance = 0.01;
     const std::vector<PressState> fine = converged(job);
     for (std::size_t i = 0; i < coarse.size(); ++i) {
       SCOPED_TRACE(coarse[i].indentation);
