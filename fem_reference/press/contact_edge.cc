@@ -168,14 +168,17 @@ std::vector<meshes::ContactPoint> pushed_nodes(const PlaneContact& contact,
     point.rest = nodes[i].position;
     point.place = point.rest + moved[i];
     point.normal = contact.normal(i);
-    point.state =
-        status[i] == NodeStatus::stick ? meshes::ContactState::stick : meshes::ContactState::slip;
+    // A pole, which cannot move aside, does what its neighbour does.
+    point.state = status[contact.leader(i)] == NodeStatus::stick ? meshes::ContactState::stick
+                                                                 : meshes::ContactState::slip;
     if (is_pole) continue;
     point.area = seen[i] / -point.normal.z();
     point.set_force(force[i]);
     if (!squares.empty()) rings.push_back({squares[i], point.normal_traction});
   }
-  if (pole) {
+  if (rings.empty() && pole) {  // it touches alone, and no pressure is known
+    pushed.clear();
+  } else if (pole) {
     pushed[*pole].normal_traction = pressure_at_pole(std::move(rings));
     pushed[*pole].reach = 0.5 * spacing_at(pushed[*pole], pushed);
   }
