@@ -43,13 +43,9 @@ constexpr GridError springs_alone{0.04, 0.1, 1.7, 0.18, 0.25, 0.4};  // central
 /// e: by how many spacings the radius of what sticks may be too large.
 constexpr double edge_of_stick = 0.16;
 
-/// Of what friction holds the share `s` is there, from 0 to 1: d ln Q/d ln u of a push aside, of
-/// Mindlin, and of a turn.
-double still_held_aside(double s) {
+/// Mindlin's d ln Q/d ln u where Q is the share `s` of what friction holds, from 0 to 1.
+double still_held(double s) {
   return s > 0.0 ? 1.5 * std::cbrt(1.0 - s) * (1.0 - std::pow(1.0 - s, 2.0 / 3.0)) / s : 1.0;
-}
-double still_held_in_turn(double s) {
-  return std::sqrt(1.0 - s);
 }
 
 /// F = factor (delta^3/2 + layer delta²).
@@ -364,22 +360,20 @@ std::optional<ForceEstimate> ForceEstimator::at(double depth) const {
 meshes::RelativeErrors ForceEstimator::errors(const meshes::PressSample& sample,
                                               const ForceEstimate& estimate) const {
   const PressSetup& setup = terms_->setup;
-  const meshes::ContactMode contact = setup.protocol.contact;
   meshes::RelativeErrors errors{
       .normal = estimate.sum(),
       .aside = estimate.sum(),
       .spin = estimate.sum(),
       .lever = (setup.geometry.rod_endpoint() - setup.geometry.pole() * meshes::Vector3::UnitZ())
                    .norm()};
-  if (contact == meshes::ContactMode::frictionless) return errors;
+  if (setup.protocol.contact == meshes::ContactMode::frictionless) return errors;
   double held_aside = 1.0, held_in_turn = 1.0;
-  if (contact == meshes::ContactMode::coulomb) {
+  if (setup.protocol.contact == meshes::ContactMode::coulomb) {
     constexpr double of_hertz = 3.0 * std::numbers::pi / 16.0;
     const double most = setup.protocol.friction * sample.normal_force,
                  spin = std::isnan(sample.spin_torque) ? 0.0 : std::abs(sample.spin_torque);
-    held_aside = still_held_aside(std::min(sample.force().head<2>().norm() / most, 1.0));
-    held_in_turn =
-        still_held_in_turn(std::min(spin / (of_hertz * most * sample.contact_radius), 1.0));
+    held_aside = still_held(std::min(sample.force().head<2>().norm() / most, 1.0));
+    held_in_turn = std::sqrt(1.0 - std::min(spin / (of_hertz * most * sample.contact_radius), 1.0));
   }
   const bool central = setup.lattice.model == ModelKind::central;
   const double x = terms_->elongated * setup.lattice.spacing / sample.contact_radius,
@@ -389,7 +383,7 @@ meshes::RelativeErrors ForceEstimator::errors(const meshes::PressSample& sample,
                slipping = 2.0 * (central ? springs_alone : solid_cells).edge * x * x * x;
   errors.aside += held_aside * (edge + springs - estimate.model);
   errors.spin += held_in_turn * (3.0 * edge - estimate.model) + (1.0 - held_in_turn) * slipping;
-  errors.centre = held_in_turn * edge;
+  errors.centre = 2.0 / 3.0 * held_in_turn * edge;
   return errors;
 }
 

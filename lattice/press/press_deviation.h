@@ -133,13 +133,13 @@ struct ForceEstimate {
 /// sticks moves as one. Both make the radius of what sticks larger, by up to e h. Normal forces are
 /// stationary in it; lateral stiffness, 8 G a/(2 - nu) (Mindlin, J. Appl. Mech. 16 (1949) 259),
 /// goes with it, torsion, 16 G a³/3 (Reissner & Sagoci, J. Appl. Phys. 15 (1944) 652), with its
-/// cube: e x, 3 e x, and e x of the place of the centre. Where Coulomb's friction holds the share s
-/// of what it can, the part w of that is left which the stiffness has in the force: Mindlin's
-/// w = d ln Q/d ln u = 3/2 (1-s)^1/3 (1 - (1-s)^2/3)/s for s = Q/(mu N), and for
-/// s = M/(3 pi/16 mu N a) w = sqrt(1-s), within 0.1 of Lubkin's (J. Appl. Mech. 18 (1951) 183).
-/// What slips answers to the pressure, Q as N does; M has it times the radius, of which the edge's
-/// part B x³ counts thrice. So for what is turned or pushed aside once: right after the way has
-/// turned, shares are larger. e covers 95 % of drawn_presses.py --turned.
+/// cube: e x, 3 e x; of the place of the centre 2/3 e x, for some of e is there all around. Where
+/// Coulomb's friction holds the share s of what it can, the part w of that is left which the
+/// stiffness has in the force: Mindlin's w = d ln Q/d ln u = 3/2 (1-s)^1/3 (1 - (1-s)^2/3)/s for s
+/// = Q/(mu N), and for s = M/(3 pi/16 mu N a) w = sqrt(1-s), within 0.1 of Lubkin's (J. Appl. Mech.
+/// 18 (1951) 183). What slips answers to the pressure, Q as N does; M has it times the radius, of
+/// which the edge's part B x³ counts thrice. So for what is turned or pushed aside once: right
+/// after the way has turned, shares are larger. e covers 95 % of drawn_presses.py --turned.
 ///
 /// Model. `central` has nu = 1/4 in all its directions, whatever the rubber has: the rough force
 /// (Hertz on a layer, scaling_deviations above) of both, at one E. Its G is right, and so torsion;
