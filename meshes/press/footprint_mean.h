@@ -27,6 +27,11 @@ struct FootprintMean {
 /// the zero of p², which must lie within two spacings; else the edge is sharp and as far away as
 /// the area of the outermost points says.
 ///
+/// The points' areas times pressures are the contact's force, of which the field between them may
+/// lack some, or have too much, where they do not tell the edge: a lattice's outermost points bear
+/// what presses beyond them. The difference is a share of the pressure within 3.5 spacings of the
+/// edge, most at the edge itself.
+///
 /// The points' places in the disc's plane are those of Lambert's equal-area projection, so that
 /// on a sphere sums over a dense array of discs are the contact's forces. Places of the points in
 /// the contact, a polynomial too, tell how much of it an area of the undeformed surface is.
