@@ -30,7 +30,8 @@ std::vector<double> pressure_errors(const fs::path& folder) {
   const fs::path table = folder / "response.csv";
   if (!fs::exists(table)) return {};
   std::vector<double> errors;
-  for (const meshes::PressSample& sample : meshes::PressResponse::read_csv(table).samples())
+  const auto response = meshes::PressResponse::read_csv(table);
+  for (const meshes::PressSample& sample : response.samples())
     errors.push_back(sample.pressure_error);
   return errors;
 }
