@@ -146,7 +146,7 @@ Vector3 conducted_to(std::span<const ContactPoint> points, const Vector3& place,
 std::vector<Told> told(std::span<const ContactPoint> points, const TaxelSkin& skin,
                        const Matrix3d& axes) {
   const double footprint = 0.5 * skin.footprint;
-  const FootprintMeans field(points, axes);
+  const FootprintMeans field(skin.depth > 0.0 ? std::span<const ContactPoint>() : points, axes);
   std::vector<Told> all;
   for (const Taxel& taxel : skin.taxels) {
     const Matrix3d own = axes * turn(Vector3::UnitZ(), taxel.normal);
