@@ -118,6 +118,12 @@ void put_errors(PressSample& sample, const PressSample& truth) {
                                (sample.force() - truth.force()).head<2>().norm();
   sample.torque_error =
       own(truth.torque_error, sample.torque_error) + (sample.torque() - truth.torque()).norm();
+  const auto put = [&](double PressSample::*error, double PressSample::*value) {
+    sample.*error = truth.*error + std::abs(sample.*value - truth.*value);
+  };
+  put(&PressSample::contact_radius_error, &PressSample::contact_radius);
+  put(&PressSample::contact_area_error, &PressSample::contact_area);
+  put(&PressSample::max_pressure_error, &PressSample::max_pressure);
 }
 
 }  // namespace

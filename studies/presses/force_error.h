@@ -40,7 +40,7 @@ std::string beyond_tolerance(const LoadedConfig& loaded, const ForceErrorEntry& 
 /// first depth of the continuum to its last, and of a lateral motion where both have the same
 /// displacement; unknown elsewhere. Between depths the continuum's force is interpolated, and its
 /// relative error is the larger one of both sides. At the continuum's depths likewise the errors of
-/// lateral force and torque, where symmetry leaves any.
+/// lateral force and torque, where symmetry leaves any, and of radius, area and largest pressure.
 meshes::PressResponse with_force_error(const meshes::PressResponse& response,
                                        const meshes::PressResponse& continuum);
 

@@ -86,6 +86,19 @@ TEST(ForceError, OfWhatPullsAsideIsAVectors) {
   EXPECT_TRUE(std::isnan(unknown.torque_error));
 }
 
+TEST(ForceError, OfRadiusAreaAndPeakIsLikewise) {
+  PressSample truth = sample(1e-3, 2.0, 0.02), own = sample(1e-3, 2.1);
+  truth.set_contact(3e-3, 4e3);
+  truth.contact_radius_error = 1e-5;
+  truth.contact_area_error = 2e-7;
+  own.set_contact(3.1e-3, 3.9e3);
+  const PressSample found =
+      with_force_error(PressResponse({own}), PressResponse({truth})).samples()[0];
+  EXPECT_NEAR(found.contact_radius_error, 1.1e-4, 1e-12);
+  EXPECT_NEAR(found.contact_area_error, own.contact_area - truth.contact_area + 2e-7, 1e-15);
+  EXPECT_TRUE(std::isnan(found.max_pressure_error)) << "as long as the truth's is unknown";
+}
+
 TEST(ForceError, IsFromTheContinuumWhereThatTakesSeconds) {
   const ErrorSource small = source_of({});
   ASSERT_TRUE(small.continuum);
