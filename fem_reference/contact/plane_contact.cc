@@ -157,7 +157,8 @@ double PlaneContact::move_feet(const Eigen::VectorXd& displacement) {
     const meshes::Vector3 way = carried(node, none, from) - carried(node, none, to),
                           own = of_node(node, displacement) -
                                 of_node(node, committed_.displacement) + way;
-    const double share = meshes::share_passed(own.x(), own.y(), way.x(), way.y());
+    const bool follows = mode_ != ContactMode::frictionless;
+    const double share = follows ? meshes::share_passed(own.x(), own.y(), way.x(), way.y()) : 1.0;
     const double before = reach(node);
     Eigen::Vector2d::Map(trial_.feet[node].data()) =
         foot(node, 0.0) + share * (over_obstacle(rest, to) - over_obstacle(rest, from));

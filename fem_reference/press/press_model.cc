@@ -76,8 +76,7 @@ void TipPress<dim>::prepare() {
   solver_kind_ = choose_solver(job_, double(body_->unknowns()));
   outer_nodes_ = outer_nodes(*body_);
   const double bulge = job_.strain == Strain::finite ? finite_bulge : linear_bulge;
-  const bool curved = !job_.protocol.obstacle.is_plane() &&
-                      (job_.strain == Strain::finite || !job_.protocol.is_straight());
+  const bool curved = job_.strain == Strain::finite && !job_.protocol.obstacle.is_plane();
   ContactUnknowns candidates = contact_unknowns(
       within_reach(outer_nodes_, job_.protocol, touch_, bulge * job_.protocol.samples.back()),
       curved || job_.protocol.contact != ContactMode::frictionless);

@@ -99,6 +99,7 @@ kernel::ContactArrays PenaltyContact::arrays(const State& state, const Plane& no
   a.obstacle = plane_.obstacle.form();
   if (a.obstacle.flat) return a;
   a.exact = model_->kinematics == Kinematics::finite;
+  a.follows = law_.mode != meshes::ContactMode::frictionless;
   const Eigen::Matrix3d axes = plane_.turned.conjugate() * plane_.axes();
   Vector3::Map(a.tangent[0]) = axes.col(0);
   Vector3::Map(a.tangent[1]) = axes.col(1);

@@ -71,6 +71,7 @@ struct ContactArrays {
   /// the distance from the plane less its height at the point's foot (statics/static_contact.h).
   meshes::ObstacleForm obstacle;
   bool exact;
+  bool follows;          ///< whether feet do: not without friction
   double tangent[2][3];  ///< t1 and t2 of the obstacle, in the plane's own axes
   PlaneFrame carried;    ///< of a point at rest as the rod carries it
 };

@@ -146,7 +146,8 @@ struct ContactBody : Packs<Pack> {
                  own = place - load(memory.place, lane);
     const Pack x = along(a, 0, rest), y = along(a, 1, rest);
     const Pack rx = x - load(memory.rest[0], lane), ry = y - load(memory.rest[1], lane);
-    const Pack share = meshes::share_passed(along(a, 0, own), along(a, 1, own), rx, ry);
+    const Pack share =
+        a.follows ? meshes::share_passed(along(a, 0, own), along(a, 1, own), rx, ry) : Pack(1.0);
     store(memory.rest[0], lane, x);
     store(memory.rest[1], lane, y);
     store(memory.foot[0], lane, load(memory.foot[0], lane) + share * rx);

@@ -201,7 +201,7 @@ bool StaticPress::step_to(double place, bool is_sample) {
   const bool stick = setup_.protocol.contact == ContactMode::stick,
              holds = setup_.protocol.contact != ContactMode::frictionless;
   const double enough = is_sample ? tolerance_ : search_tolerance_;
-  double tolerance = holds || next.contact.feet_move() ? search_tolerance_ : enough;
+  double tolerance = holds ? search_tolerance_ : enough;
   bool converged = false;
   for (int round = 0; round < max_rounds && !converged; ++round) {
     next.contact.move_feet(next.displacement);

@@ -56,6 +56,10 @@ void StaticContact::begin_step(double place, const VectorXd& displacement) {
   first_foot_ = foot_;
   const meshes::PressPose before = plane_.path.at(from_), now = pose();
   if (before.lateral == now.lateral && before.twist == now.twist) return;
+  if (law_.mode == ContactMode::frictionless) {  // nothing takes the rubber along
+    for (std::size_t i = 0; i < foot_.size(); ++i) foot_[i] = rest_over(i, place_);
+    return;
+  }
   for (const EmbeddedPoint& outer : body_->outer) first_.push_back(position(outer, displacement));
   move_feet(displacement);
 }

@@ -93,9 +93,7 @@ class StaticContact {
   bool rubs() const { return law_.mode == meshes::ContactMode::coulomb; }
   /// Coulomb: friction gives way from now on as the pushes have it.
   void update_friction(const Eigen::VectorXd& displacement);
-  /// Whether feet move in this step.
-  bool feet_move() const { return !first_.empty(); }
-  /// Puts them where the step ends, were it to end at `displacement`.
+  /// Puts feet where the step ends, were it to end at `displacement`.
   void move_feet(const Eigen::VectorXd& displacement);
   /// Coulomb: anchors of what slides follow; what does not touch has none.
   void end_step(const Eigen::VectorXd& displacement);
