@@ -59,14 +59,15 @@ struct PressSample {
   bool is_beside(const PressSample& other) const;
   /// From those of N, Q and M = spin_torque, a the contact's radius, T the torque, T'² = T² - M²;
   /// sources that have nothing to do with each other, so that squares are added:
-  ///   lateral  aside |Q|; normal |N|/8, for what is off of the pressure pushes aside by
-  ///            (1 - 2 nu)/(2 - 2 nu), 1/8 at nu = 0.43; s = centre |M|/a, for a turn about another
-  ///            centre moves what sticks, by 8 G a/(2 - nu) (3 |M|/(16 G a³)) centre a, nearly
-  ///            that;
-  ///   torque   spin |M|; where something pushes aside normal (T' + a (|N| + |Q|)), for the place
-  ///   of
-  ///            the force is known to that share of a; and with the lever what Q is off beyond
-  ///            that, (aside - normal) |Q| + s.
+  ///   lateral  aside |Q|
+  ///            normal |N|/8: what is off of the pressure pushes aside by (1 - 2 nu)/(2 - 2 nu),
+  ///            1/8 at nu = 0.43
+  ///            s = centre |M|/a: a turn about another centre moves what sticks, nearly by
+  ///            8 G a/(2 - nu) (3 |M|/(16 G a³)) centre a
+  ///   torque   spin |M|
+  ///            normal (T' + a (|N| + |Q|)) where something pushes aside: the place of the force
+  ///            is known to that share of a
+  ///            lever ((aside - normal) |Q| + s): what Q is off beyond that
   /// Unknown where symmetry leaves no Q or no T.
   void set_errors(const RelativeErrors& relative);
   void set_errors(double relative) {
