@@ -71,15 +71,18 @@ Vector3 StaticContact::rest_over(std::size_t point, double place) const {
 
 /// The plane's motion counts as small as displacements, its turn too.
 void StaticContact::move_feet(const VectorXd& displacement) {
+  if (first_.empty()) return;
+  const Matrix3d before = (turn(from_) * plane_.axes()).transpose(),
+                 now = (turn(place_) * plane_.axes()).transpose();
+  const Vector3 from = plane_.point(from_), to = plane_.point(place_);
+  const double turned = plane_.twist(place_) - plane_.twist(from_);
   for (std::size_t i = 0; i < first_.size(); ++i) {
     const EmbeddedPoint& outer = body_->outer[i];
-    const double turned = plane_.twist(place_) - plane_.twist(from_);
-    const Vector3 way = plane_.point(from_) - plane_.point(place_) -
-                        turned * plane_.normal.cross(outer.rest),
+    const Vector3 way = from - to - turned * plane_.normal.cross(outer.rest),
                   own = position(outer, displacement) - first_[i] + way;
     const double share = meshes::share_passed(own.dot(plane_.t1), own.dot(plane_.t2),
                                               way.dot(plane_.t1), way.dot(plane_.t2));
-    foot_[i] = first_foot_[i] + share * (rest_over(i, place_) - rest_over(i, from_));
+    foot_[i] = first_foot_[i] + share * (now * (outer.rest - to) - before * (outer.rest - from));
   }
 }
 
