@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "meshes/base/text_file.h"
 #include "studies/cli/verbs/verbs.h"
 #include "studies/config/documents.h"
+#include "studies/config/keys/key_table.h"
 #include "studies/files/places.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
@@ -44,13 +47,14 @@ struct Start {
   std::string name() const { return file.stem().string(); }
 };
 
-/// By name.
+/// By name. A file without a command belongs to one that has.
 std::vector<Start> all_starts() {
   std::vector<Start> starts;
   std::error_code none;
   for (const fs::directory_entry& entry :
        fs::directory_iterator(data_folder("examples", FINGERTIP_EXAMPLES), none))
     if (entry.path().extension() == ".toml") starts.emplace_back(entry.path());
+  std::erase_if(starts, [](const Start& start) { return start.commands.empty(); });
   std::ranges::sort(starts, {}, &Start::name);
   return starts;
 }
@@ -75,6 +79,7 @@ class NewFiles {
   void write() const {
     for (const auto& [file, content] : files_) {
       try {
+        if (file.has_parent_path()) fs::create_directories(file.parent_path());
         meshes::write_atomically(file, [&](std::ostream& out) { out << content; });
       } catch (const std::runtime_error& error) {
         refuse(file, error.what(), "choose a folder in which you may write");
@@ -92,23 +97,43 @@ class NewFiles {
   std::vector<std::pair<fs::path, std::string>> files_;
 };
 
+/// Files of the folder that a text names in quotes, and what these name in turn.
+void add_named(const fs::path& folder, const std::string& text, std::set<fs::path>& named) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path& file = entry.path();
+    if (text.find('"' + file.filename().string() + '"') == text.npos) continue;
+    if (named.insert(file).second && file.extension() == ".toml")
+      add_named(folder, meshes::read_text(file), named);
+  }
+}
+
 void write_start(const Start& start, const CommandLine& line) {
   const fs::path file = line.out.empty() ? fs::path(start.name() + ".toml") : line.out;
   const std::string there = std::string(in_the_repository) + start.file.filename().string();
   NewFiles files(line);
   files.add(file, replaced(start.text, there, file.string()));
-  // What it names.
-  for (const fs::directory_entry& entry : fs::directory_iterator(start.file.parent_path())) {
-    const std::string name = entry.path().filename().string();
-    if (start.text.find('"' + name + '"') != start.text.npos)
-      files.add(file.parent_path() / name, meshes::read_text(entry.path()));
-  }
+  std::set<fs::path> named;
+  add_named(start.file.parent_path(), start.text, named);
+  for (const fs::path& each : named)
+    files.add(file.parent_path() / each.filename(), meshes::read_text(each));
   files.write();
   if (line.quiet) return;
   const bool launched = std::getenv("FINGERTIP_LAUNCHER") != nullptr;
   for (const std::string& command : start.commands)
     fmt::print("next: {}\n", replaced(replaced(command, there, file.string()), launcher,
                                       launched ? std::string(launcher) : "fingertip"));
+}
+
+/// A file has an extension; what has none was meant to be a start.
+void check_name(const std::string& name, const std::vector<Start>& starts) {
+  if (starts.empty() || name.empty() || fs::path(name).has_extension()) return;
+  std::vector<std::string> names;
+  for (const Start& start : starts) names.push_back(start.name());
+  throw ConfigError({"", "",
+                     "there is no such start; the nearest one is " + nearest_word(name, names),
+                     fmt::format("choose one of {}, or write every key into a file: init {}.toml",
+                                 fmt::join(names, ", "), name),
+                     "init " + name});
 }
 
 }  // namespace
@@ -127,6 +152,7 @@ int run_init(const CommandLine& line) {
     write_start(*start, line);
     return 0;
   }
+  check_name(argument, starts);
   const fs::path file = argument.empty() ? line.out : fs::path(argument);
   if (file.empty()) {
     fmt::print("{}", config_template());

@@ -41,7 +41,27 @@ TEST(Init, AStartReplacesNothingUnlessAsked) {
   EXPECT_TRUE(
       says(folder.run("init my_press --out mine.toml", {}, 2).err, "the file exists already"));
   folder.run("init my_press --force --out mine.toml", {});
-  // Any other name is a file of all keys.
+  // A name with an extension is a file of all keys.
   folder.run("init my.toml", {});
   EXPECT_TRUE(says(folder.text("my.toml"), "youngs_modulus"));
+}
+
+TEST(Init, AMisspeltStartIsToldFromAFile) {
+  const Workplace folder;
+  EXPECT_TRUE(says(folder.run("init my_pres", {}, 2).err,
+                   {"init my_pres: there is no such start; the nearest one is my_press",
+                    "hollow_finger", "init my_pres.toml"}));
+  EXPECT_FALSE(folder.has("my_pres"));
+}
+
+/// Files that a start's files name come along, wherever it goes.
+TEST(Init, TestsOfCouponsRunFromAnyFolder) {
+  const Workplace folder;
+  EXPECT_TRUE(omits(folder.run("init --list", {}).out, "my_specimens"));
+  folder.run("init my_tests --out coupons/mine.toml", {});
+  for (const char* name :
+       {"my_specimens.toml", "my_tension.csv", "my_compression.csv", "my_shear.csv"})
+    EXPECT_TRUE(folder.has(std::string("coupons/") + name)) << name;
+  folder.run("calibrate --config coupons/mine.toml --out laws", {});
+  EXPECT_TRUE(says(folder.text("laws/material.toml"), "name = \"yeoh-2\""));
 }
