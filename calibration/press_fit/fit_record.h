@@ -30,7 +30,7 @@ struct RigValue {
 
 /// Everything that is told of a fit.
 struct FitRecord {
-  std::string problem;  ///< "curve", "experiment", "finite-strain", "damping"
+  std::string problem;  ///< "curve", "experiment", "damping"
   std::string forward;  ///< "lattice", "continuum", "formula"
   /// What is known of the models' errors and stands in options.model_covariance, in words; empty:
   /// nothing.

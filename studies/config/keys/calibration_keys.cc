@@ -20,7 +20,6 @@ Key problem_key() {
       {{"moduli", "spring constants to Young's and shear modulus"},
        {"curve", "spring constants, bond and contact to the continuum's forces"},
        {"experiment", "Young's and shear modulus to measured forces"},
-       {"finite-strain", "the neo-Hookean law (law A) to measured stress and stretch, or shear"},
        {"damping", "the retardation time to loss factors, creep, a held ramp or a press"},
        {"material", "laws of rubber at large strain to the material tests of calibration.tests"}},
       "what is fitted to what", at(&Config::calibration, &CalibrationSettings::problem));
@@ -31,7 +30,7 @@ Key data_key() {
       entry("data", any,
             "measured CSV files, units in the header, or TOML files that describe such",
             &CalibrationSettings::data),
-      "for experiment, finite-strain and damping; paths are relative to this file", {});
+      "for experiment and damping; paths are relative to this file", {});
 }
 
 Key forward_key() {
@@ -146,9 +145,9 @@ std::vector<Key> calibration_keys() {
           "ratio held; "
           "lame_shear, lambda: of law A; k1, k2, k3, kappa: of the lattice; bond, contact: "
           "factors on the ties; retardation_time. experiment and curve know all but the "
-          "last, finite-strain the moduli and law A's, damping the last alone. experiment "
-          "knows besides relaxation: shares and times of the branches of rubber.relaxation, "
-          "of one if it has none; or relaxation_g1, relaxation_tau1 ...: some of them",
+          "last, damping the last alone. experiment knows besides relaxation: shares and times of "
+          "the branches of rubber.relaxation, of one if it has none; or relaxation_g1, "
+          "relaxation_tau1 ...: some of them",
           {}),
       forward_key(),
       of_experiment(rig_key()),

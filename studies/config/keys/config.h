@@ -45,19 +45,17 @@ constexpr auto names_of(ConstantsSource) {
 
 /// What `calibrate` fits (key calibration.problem).
 enum class CalibrationProblem {
-  moduli,         ///< constants to E and G of the rubber
-  curve,          ///< constants and ties to the continuum's forces
-  experiment,     ///< E and G, or constants, to measured forces
-  finite_strain,  ///< E and G, or lambda and G, of law A to stress-stretch data
-  damping,        ///< the retardation time
-  material,       ///< laws of large strain to material tests
+  moduli,      ///< constants to E and G of the rubber
+  curve,       ///< constants and ties to the continuum's forces
+  experiment,  ///< E and G, or constants, to measured forces
+  damping,     ///< the retardation time
+  material,    ///< laws of large strain to material tests
 };
 constexpr auto names_of(CalibrationProblem) {
   using enum CalibrationProblem;
   return meshes::names<CalibrationProblem>({{moduli, "moduli"},
                                             {curve, "curve"},
                                             {experiment, "experiment"},
-                                            {finite_strain, "finite-strain"},
                                             {damping, "damping"},
                                             {material, "material"}});
 }

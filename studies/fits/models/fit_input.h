@@ -18,10 +18,8 @@ namespace fingertip::studies::inline fits::inline models {
 
 /// What answers for one curve.
 enum class CurveKind {
-  press,         ///< the static lattice
-  continuum,     ///< run at the Poisson's ratios that the search comes near
-  uniaxial,      ///< law A
-  simple_shear,  ///< law A
+  press,      ///< the static lattice
+  continuum,  ///< run at the Poisson's ratios that the search comes near
   loss_factor,
   creep,
   ramp,          ///< a press to a depth, held: FitInput::presses' static lattice, damped

@@ -6,7 +6,6 @@
 
 #include "calibration/press_fit/damping_models.h"
 #include "calibration/press_fit/lattice_forward_model.h"
-#include "calibration/press_fit/stretch_models.h"
 #include "calibration/statistics/curve_checks.h"
 #include "lattice/press/setup_fields.h"
 #include "lattice/press/static_press.h"
@@ -98,10 +97,6 @@ std::unique_ptr<ForwardModel> model_of(const FitInput& input, std::size_t i,
     case CurveKind::continuum:
       return std::make_unique<calibration::ScaledModel>(continuum_model(
           curve.continuum, parameters, fmt::format("{}_{}", input.place, i + 1), context));
-    case CurveKind::uniaxial:
-      return std::make_unique<calibration::UniaxialModel>(x, parameters, input.base.rubber);
-    case CurveKind::simple_shear:
-      return std::make_unique<calibration::SimpleShearModel>(x, parameters, input.base.rubber);
     case CurveKind::loss_factor: return std::make_unique<calibration::LossFactorModel>(x);
     case CurveKind::creep: return std::make_unique<calibration::CreepModel>(x);
     case CurveKind::ramp: return ramp_model(curve.press, x, go_on);

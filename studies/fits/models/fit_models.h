@@ -10,6 +10,7 @@
 #include "calibration/press_fit/remembered_model.h"
 #include "calibration/press_fit/rig_model.h"
 #include "studies/fits/models/fit_input.h"
+#include "studies/jobs/job.h"
 
 namespace fingertip::studies::inline fits::inline models {
 

@@ -70,7 +70,7 @@ lattice::PressSetup fitted_setup(const FitInput& input, const Eigen::VectorXd& e
   lattice::PressSetup setup = input.base;
   if (input.problem == CalibrationProblem::damping) {
     setup.rubber.retardation_time = estimates(0);
-  } else if (input.problem == CalibrationProblem::finite_strain || by_continuum(input)) {
+  } else if (by_continuum(input)) {
     put_rubber(calibration::with_moduli(input.base.rubber, parameters_of(input), estimates), setup);
   } else {
     return calibration::LatticeForwardModel(setup, parameters_of(input)).setup_with(estimates);

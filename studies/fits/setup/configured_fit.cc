@@ -94,11 +94,6 @@ void check_model(const LoadedConfig& loaded) {
     throw refused(loaded, "lattice.model", "published",
                   "the published model has a rule for its constants and is not calibrated",
                   "calibrate central, hookean or network");
-  const meshes::StrainEnergy& energy = loaded.config.press.rubber.energy;
-  if (settings.problem == CalibrationProblem::finite_strain && energy != meshes::StrainEnergy())
-    throw refused(loaded, "rubber.law", std::string(meshes::name(energy.law)),
-                  "the problem finite-strain fits the neo-Hookean law, logarithmic, alone",
-                  "take calibration.problem = \"material\", which fits every law");
 }
 
 /// Forces are proportional to a modulus at held Poisson's ratio: to ask for others costs nothing.
@@ -156,8 +151,7 @@ FitSetup assembled(const LoadedConfig& given, Presses presses,
         "the continuum beside a fit presses a rubber in equilibrium, and this one relaxes",
         "leave it out, or let the continuum answer: calibration.forward = \"continuum\"");
   check_profile(loaded, input);
-  input.scale_to_data = wanted.problem == CalibrationProblem::experiment ||
-                        wanted.problem == CalibrationProblem::finite_strain;
+  input.scale_to_data = wanted.problem == CalibrationProblem::experiment;
   input.start_ratios = start_ratios(input);
   input.profile_intervals = has_profile_intervals(wanted, input);
   check_models(loaded, input);

@@ -3,7 +3,6 @@
 #include <iterator>
 #include <map>
 
-#include "calibration/press_fit/stretch_models.h"
 #include "calibration/statistics/curve_residuals.h"
 #include "meshes/base/files.h"
 #include "studies/files/shown_units.h"
@@ -43,7 +42,6 @@ class NotesOnFiles {
 
 std::vector<CurveQuantities> quantities_of(CalibrationProblem problem) {
   switch (problem) {
-    case CalibrationProblem::finite_strain: return {measured::uniaxial, measured::simple_shear};
     case CalibrationProblem::damping:
       return {measured::vibration, measured::creep, measured::relaxation};
     default: return {measured::press, measured::travel};
@@ -51,8 +49,6 @@ std::vector<CurveQuantities> quantities_of(CalibrationProblem problem) {
 }
 
 CurveKind kind_of(const MeasuredFile& file, const CalibrationSettings& settings) {
-  if (file.x_quantity == "stretch") return CurveKind::uniaxial;
-  if (file.x_quantity == "shear") return CurveKind::simple_shear;
   if (file.x_quantity == "frequency") return CurveKind::loss_factor;
   if (file.y_quantity == "creep") return CurveKind::creep;
   if (file.x_quantity == "time") return CurveKind::ramp;
@@ -158,24 +154,11 @@ FitCurve& add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const Cu
 }
 
 std::string with_unit(const std::string& quantity) {
-  for (const CurveQuantities& pair :
-       {measured::press, measured::travel, measured::uniaxial, measured::simple_shear,
-        measured::vibration, measured::creep, measured::relaxation})
+  for (const CurveQuantities& pair : {measured::press, measured::travel, measured::vibration,
+                                      measured::creep, measured::relaxation})
     for (const Quantity& axis : {pair.x, pair.y})
       if (axis.name == quantity) return quantity + " [" + std::string(axis.unit) + "]";
   return quantity;
-}
-
-void check_stretches(const std::filesystem::path& path, const MeasuredFile& file) {
-  if (file.x_quantity != "stretch") return;
-  FileProblems problems(path);
-  for (std::size_t i = 0; i < file.curve.x.size(); ++i)
-    if (const double stretch = file.curve.x[i];
-        stretch < calibration::min_stretch || stretch > calibration::largest_stretch)
-      problems.add(file.lines[i], "stretch", meshes::to_text(stretch),
-                   "a stretch lies between 0.01 and 100",
-                   "give length over length at rest, 1 for the bar at rest");
-  problems.throw_if_any();
 }
 
 /// What a fit refuses of its data as a whole is said of the files, before anything is computed.
@@ -257,7 +240,6 @@ void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
     }
     return;
   }
-  check_stretches(source.path, file);
   if (!condition.empty() || !source.condition.empty())
     throw refused(loaded, "calibration.conditions", "",
                   "conditions are those of presses; a test on a coupon has none", "leave them out");

@@ -39,8 +39,6 @@ using enum MaterialParameter;
 std::vector<MaterialParameter> known_parameters(const CalibrationSettings& settings) {
   switch (settings.problem) {
     case CalibrationProblem::damping: return {retardation_time};
-    case CalibrationProblem::finite_strain:
-      return {youngs_modulus, shear_modulus, modulus, lame_shear, lambda};
     default:
       return {youngs_modulus, shear_modulus, modulus, k1,   k2,     k3,
               kappa,          lame_shear,    lambda,  bond, contact};
@@ -162,10 +160,9 @@ std::optional<std::string> held_ratio_note(const LoadedConfig& loaded, const Fit
 void bound_poissons_ratio(const LoadedConfig& loaded, FitInput& input) {
   const CalibrationSettings& wanted = loaded.config.calibration;
   calibration::CurveFitOptions& options = input.options;
-  const bool finite = input.base.lattice.kinematics == lattice::Kinematics::finite ||
-                      wanted.problem == CalibrationProblem::finite_strain;
   // Law A knows no nu < 0.
-  if (finite) options.lowest_poissons_ratio = 0.0;
+  if (input.base.lattice.kinematics == lattice::Kinematics::finite)
+    options.lowest_poissons_ratio = 0.0;
   if (wanted.problem != CalibrationProblem::experiment) return;
   const std::vector<double>& range = wanted.poisson_range;
   const double lowest = options.lowest_poissons_ratio =

@@ -86,7 +86,6 @@ Chapter quality_chapter(const Fit& fit, const std::string& prefix) {
   chapter["name"] = fit.name;
   chapter["curve"] = fit.problem == "curve";
   chapter["experiment"] = fit.problem == "experiment";
-  chapter["finite"] = fit.problem == "finite-strain";
   chapter["damping"] = fit.problem == "damping";
   chapter["made"] = how_it_was_made(fit);
   chapter["statement"] = as_shown(fit.file.statement);
