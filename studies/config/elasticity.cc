@@ -8,6 +8,7 @@
 
 #include "calibration/files/words.h"
 #include "meshes/base/files.h"
+#include "meshes/rubber/plausible.h"
 #include "studies/config/value_reader.h"
 
 namespace fingertip::studies::inline config {
@@ -56,6 +57,8 @@ class Elasticity {
            kilopascal(rubber_.youngs_modulus) + " and G = " + kilopascal(rubber_.shear_modulus) +
            ": pulled, such a solid grows wider; a rubber has some 0.49, with G = " +
            kilopascal(rubber_.youngs_modulus / (2.0 * (1.0 + usual_poissons_ratio))));
+    const std::string odd = meshes::implausible_modulus(rubber_.youngs_modulus);
+    if (!odd.empty() && !has(hardness)) note(odd);
   }
 
  private:

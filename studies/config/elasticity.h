@@ -18,9 +18,10 @@ double youngs_modulus_of_hardness(double shore_a);
 /// Puts E, G and the law of large strain into config.press.rubber. Given can be E or hardness, G
 /// (or the coefficients of a law, which tell it), nu, K: two of the four, one (then nu is
 /// `usual_poissons_ratio`, or E the default where nu or K is given; a note tells) or none (the
-/// defaults of E and G). Entries of what follows from others become "auto", so that the
-/// resolved configuration can be loaded again. Appends a problem where three are given, both E
-/// and hardness, a stiffness beside coefficients, or where a law misses its coefficients.
+/// defaults of E and G); another note tells an E that no rubber has. Entries of what follows from
+/// others become "auto", so that the resolved configuration can be loaded again. Appends a problem
+/// where three are given, both E and hardness, a stiffness beside coefficients, or where a law
+/// misses its coefficients.
 void resolve_elasticity(LoadedConfig& loaded, std::vector<meshes::Violation>& problems);
 
 }  // namespace fingertip::studies::inline config

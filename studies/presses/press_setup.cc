@@ -12,6 +12,7 @@
 #include "lattice/statics/cut_lattice.h"
 #include "meshes/base/files.h"
 #include "meshes/cells/cubic_grid.h"
+#include "meshes/rubber/plausible.h"
 #include "studies/config/finger_defaults.h"
 #include "studies/config/keys/key_table.h"
 #include "studies/config/law_card_keys.h"
@@ -181,6 +182,8 @@ void add_material(LatticeUse use, LoadedConfig& complete) {
   meshes::Rubber& rubber = complete.config.press.rubber;
   rubber.youngs_modulus = material.rubber.youngs_modulus;
   rubber.shear_modulus = material.rubber.shear_modulus;
+  if (const std::string odd = meshes::implausible_modulus(rubber.youngs_modulus); !odd.empty())
+    complete.notes.push_back(place + odd);
   choose_limits(complete);
 }
 

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+
+#include "meshes/rubber/plausible.h"
 
 using namespace fingertip::meshes;
 
@@ -49,6 +52,20 @@ TEST(Rubber, RefusesAPoissonsRatioThatRoundsToMinusOne) {
   const Rubber odd{1e-3, 1e4, 500.0, 0.0, {}, {}};  // nu = -1 + 5e-8
   EXPECT_TRUE(odd.violations().empty());
   EXPECT_GT(odd.poissons_ratio(), -1.0);
+}
+
+TEST(Rubber, ModuliThatNoRubberHasAreToldWithWhatWasMeant) {
+  for (const double plausible : {1e3, 3922.66, 6e4, 1e8, 0.0, -1.0, double(NAN), double(INFINITY)})
+    EXPECT_EQ(implausible_modulus(plausible), "") << plausible;
+  const auto says = [](double modulus, const char* own, const char* meant) {
+    const std::string text = implausible_modulus(modulus);
+    EXPECT_NE(text.find(own), text.npos) << text;
+    EXPECT_NE(text.find(meant), text.npos) << text;
+  };
+  says(60.0, "E = 60 Pa is no rubber's", "by a factor of 1000, and 60 kPa is meant");
+  says(6e10, "E = 60 GPa is no rubber's", "by a factor of 1000, and 60 MPa is meant");
+  says(0.06, "E = 0.06 Pa", "by a factor of 1000000, and 60 kPa is meant");
+  says(2.5e8, "E = 250 MPa", "and 250 kPa is meant");
 }
 
 TEST(Rubber, RefusesWhatIsNotANumber) {

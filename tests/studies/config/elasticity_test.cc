@@ -57,6 +57,16 @@ TEST(Elasticity, ANegativePoissonsRatioIsTold) {
             1U);
 }
 
+TEST(Elasticity, AModulusThatNoRubberHasIsToldNotRefused) {
+  const auto notes = config_of({"rubber.youngs_modulus=60 Pa", "rubber.poissons_ratio=0.45"}).notes;
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_TRUE(says(notes[0], {"E = 60 Pa is no rubber's", "60 kPa is meant"}));
+  // Where it follows from another key.
+  EXPECT_TRUE(says(config_of({"rubber.shear_modulus=20 GPa"}).notes.back(), "59.6 MPa is meant"));
+  EXPECT_TRUE(
+      config_of({"rubber.youngs_modulus=1 kPa", "rubber.poissons_ratio=0.45"}).notes.empty());
+}
+
 TEST(Elasticity, RemediesAreValuesThatServe) {
   const auto holds = [](const char* set, const char* part) {
     const std::string text = refusal_of({set});
