@@ -49,10 +49,10 @@ constexpr Verb verbs[] = {
     {"sweep", "run a verb for all combinations of values, whole or in shards", "VERB",
      "press (default), modes, reference or grasp", everything},
     {"export", "write the finger for other programs", "", "", everything},
-    {"check", "check a configuration file", "FILE", "the file", config_options},
+    {"check", "check a configuration file, or settings", "FILE", "the file", config_options},
     {"shape", "check the shape of a finger, tell its measures, draw its section", "FILE",
      "meridians (.csv: r [mm],z [mm],surface,curve), solids (.stl, .step, .brep; --set "
-     "geometry.bond=...)",
+     "geometry.bond=...); default: the one of --config",
      config_options | out_options},
     {"explain", "explain a configuration key, or list all", "KEY", "section.key", 0U},
     {"init", "write a configuration: a ready start, or one with every key, commented", "FILE",

@@ -55,16 +55,18 @@ int run_check(const CommandLine& line) {
   watch_for_interrupts();
   std::vector<std::string> files = line.arguments;
   if (!line.config.file.empty()) files.push_back(line.config.file.string());
-  if (files.empty()) {
-    throw ConfigError({"", "", "no file is given", "give a configuration file", "check"});
-  }
+  const bool by_sets = files.empty() && !line.config.sets.empty();
+  if (by_sets) files.emplace_back("--set");
+  if (files.empty())
+    refuse("check", "no file is given", "give a configuration file, or --set section.key=value");
   for (const std::string& file : files) {
-    const Case study_case = load_case(file, line.config);
-    check_all(study_case.loaded);
-    const std::vector<std::string> on_data = notes_on_data(study_case.loaded);
+    const LoadedConfig loaded =
+        by_sets ? load_config(line.config) : load_case(file, line.config).loaded;
+    check_all(loaded);
+    const std::vector<std::string> on_data = notes_on_data(loaded);
     if (line.quiet) continue;
     for (const std::string& note : on_data) fmt::print("{}: note: {}\n", file, note);
-    const LoadedConfig complete = with_material(study_case.loaded, LatticeUse::press);
+    const LoadedConfig complete = with_material(loaded, LatticeUse::press);
     for (const std::string& note : complete.notes) fmt::print("{}: note: {}\n", file, note);
     // No error: the continuum can do it.
     const ConfigError located = complete.locate(beyond_the_lattice(complete));

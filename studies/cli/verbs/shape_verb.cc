@@ -203,37 +203,60 @@ void write_triangles(const CommandLine& line, const meshes::TriangleMesh& mesh,
   fmt::print("  written           {}\n", line.stl.string());
 }
 
+/// Tells a finger and draws its section.
+void tell(const CommandLine& line, const std::filesystem::path& file, const Geometry& geometry) {
+  namespace fs = std::filesystem;
+  const std::string stem = file.stem().string() + "_section";
+  report::Figure figure;
+  if (geometry.solid) {
+    const meshes::TriangleMesh& mesh = geometry.solid->mesh();
+    fmt::print("{}: a closed surface of {} facets\n", file.string(), mesh.triangles.size());
+    print_measures(geometry, *geometry.solid);
+    print_faces(mesh);
+    if (!line.stl.empty()) write_triangles(line, mesh, file.stem());
+    figure = section(*geometry.solid, stem);
+  } else {
+    const Meridian meridian(geometry.corners());
+    fmt::print("{}: a closed meridian of {} pieces\n", file.string(), meridian.pieces().size());
+    print_measures(geometry, meridian);
+    if (!line.stl.empty()) write_triangles(line, triangles_of(meridian), file.stem());
+    figure = section(meridian, stem);
+  }
+  const fs::path folder = line.out.empty() ? file.parent_path() : line.out;
+  if (!folder.empty()) fs::create_directories(folder);
+  report::draw(figure, file.stem().string() + ", section", folder.empty() ? "." : folder);
+  fmt::print("  drawn             {}\n", (folder / (stem + ".svg")).string());
+}
+
+/// The finger that a configuration names.
+void tell_configured(const CommandLine& line, const ConfigSource& source) {
+  const Config config = load_config(source).config;
+  if (config.shape == ShapeKind::dome)
+    refuse(
+        "shape", "the configuration's finger is the dome, which is no file",
+        "write geometry.shape = \"profile\" and geometry.profile = \"FILE.csv\", or \"solid\" and "
+        "geometry.file");
+  const auto& file = config.shape == ShapeKind::profile ? config.profile : config.solid.file;
+  tell(line, std::filesystem::proximate(file), config.press.geometry);
+}
+
 }  // namespace
 
 int run_shape(const CommandLine& line) {
-  namespace fs = std::filesystem;
-  if (line.arguments.empty())
-    refuse("shape", "no file is given", "give the CSV file of a meridian, or a solid's");
   check_stl(line);
-  for (const std::string& word : line.arguments) {
-    const fs::path file = word;
-    const std::string stem = file.stem().string() + "_section";
-    report::Figure figure;
-    if (is_meridian(file)) {
-      const Geometry geometry = Geometry::of_profile(read_profile(file));
-      const Meridian meridian(geometry.corners());
-      fmt::print("{}: a closed meridian of {} pieces\n", word, meridian.pieces().size());
-      print_measures(geometry, meridian);
-      if (!line.stl.empty()) write_triangles(line, triangles_of(meridian), file.stem());
-      figure = section(meridian, stem);
-    } else {
-      const Geometry geometry = solid_of(line, file);
-      fmt::print("{}: a closed surface of {} facets\n", word,
-                 geometry.solid->mesh().triangles.size());
-      print_measures(geometry, *geometry.solid);
-      print_faces(geometry.solid->mesh());
-      if (!line.stl.empty()) write_triangles(line, geometry.solid->mesh(), file.stem());
-      figure = section(*geometry.solid, stem);
-    }
-    const fs::path folder = line.out.empty() ? file.parent_path() : line.out;
-    if (!folder.empty()) fs::create_directories(folder);
-    report::draw(figure, file.stem().string() + ", section", folder.empty() ? "." : folder);
-    fmt::print("  drawn             {}\n", (folder / (stem + ".svg")).string());
+  if (line.arguments.empty()) {
+    if (line.config.file.empty() && line.config.sets.empty())
+      refuse("shape", "no file is given",
+             "give the CSV file of a meridian, or a solid's, or a configuration that names one: "
+             "--config FILE.toml");
+    tell_configured(line, line.config);
+  }
+  for (const std::filesystem::path file : line.arguments) {
+    if (file.extension() == ".toml")
+      tell_configured(line, {file, line.config.sets, {}});
+    else
+      tell(line, file,
+           is_meridian(file) ? Geometry::of_profile(read_profile(file)) : solid_of(line, file));
   }
   return 0;
 }

@@ -82,6 +82,20 @@ TEST(Verbs, ShapeTellsMeasuresAndDraws) {
   folder.expect_refused("shape open.csv", {}, "at least three");
 }
 
+TEST(Verbs, ShapeTakesTheFingerOfAConfiguration) {
+  const Workplace folder;
+  folder.put("finger.csv", hollow);
+  folder.put("finger.toml", "[geometry]\nshape = \"profile\"\nprofile = \"finger.csv\"\n");
+  for (const char* command :
+       {"shape --config finger.toml --out drawn", "shape finger.toml --out d"})
+    EXPECT_TRUE(says(folder.run(command).out,
+                     {"finger.csv: a closed meridian", "thinnest wall     2.5 mm"}));
+  EXPECT_TRUE(folder.has("drawn/finger_section.svg"));
+  folder.put("dome.toml", "[press]\ndepth = \"1 mm\"\n");
+  folder.expect_refused("shape --config dome.toml", {}, {"is the dome", "geometry.profile"});
+  folder.expect_refused("shape", {}, {"no file is given", "--config FILE.toml"});
+}
+
 TEST(Verbs, StartsInMilliseconds) {
   const Workplace folder;
   double best = 1.0;
@@ -136,6 +150,22 @@ TEST(Verbs, CheckReadsTheDataOfACalibration) {
   EXPECT_TRUE(says(folder.run("check fit.toml").out, "fit.toml: OK"));
   folder.put("law.toml", "[calibration]\nproblem = \"material\"\ntests = \"tests.toml\"\n");
   folder.expect_refused("check law.toml", {}, "tests.toml");
+}
+
+TEST(Verbs, CheckTakesSettingsWithoutAFile) {
+  const Workplace folder;
+  const Words law = {"calibration.problem=material", "calibration.tests=tests.toml"};
+  folder.expect_refused("check", law, "tests.toml");
+  folder.put("tests.toml",
+             "[[test]]\nkind = \"uniaxial\"\npath = \"a.csv\"\nstrain = {column = 1, is = "
+             "\"stretch\"}\nstress = {column = 2, is = \"nominal\", unit = \"kPa\"}\n");
+  folder.put("a.csv", "1.1,5\n1.2,9\n1.3,13\n1.4,16\n1.5,19\n");
+  EXPECT_TRUE(says(folder.run("check", law).out, "--set: OK"));
+  folder.put("finger.csv", hollow);
+  folder.run("check", {"geometry.shape=profile", "geometry.profile=finger.csv"});
+  EXPECT_TRUE(says(folder.run("check", {"rubber.youngs_modulus=60 Pa"}).out, "60 kPa is meant"));
+  folder.expect_refused("check", {"press.depth=9 cm"}, "--set press.depth=9 cm");
+  folder.expect_refused("check", {}, "no file is given");
 }
 
 TEST(Verbs, ExplainKnowsEveryKey) {
