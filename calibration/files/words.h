@@ -29,12 +29,11 @@ inline std::string in_one(const std::vector<std::string>& sentences) {
   return text;
 }
 
-/// A share [-] in percent, to two digits, from 100 % on to whole ones.
-inline std::string percent(double share) {
+/// A share [-] in percent, to so many digits, and whole where that is more.
+inline std::string percent(double share, int digits = 2) {
   const double hundredths = 100.0 * share;
-  return (std::abs(hundredths) < 100.0 ? rounded(hundredths, 2)
-                                       : rounded(std::round(hundredths), 9)) +
-         " %";
+  const bool whole = std::abs(hundredths) >= std::pow(10.0, digits) - 0.5;
+  return (whole ? rounded(std::round(hundredths), 9) : rounded(hundredths, digits)) + " %";
 }
 
 }  // namespace fingertip::calibration::inline files

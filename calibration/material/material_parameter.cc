@@ -97,6 +97,8 @@ const ParameterKind& kind(MaterialParameter parameter) {
       {"relaxation_tau4", "s", positive},
       {"relaxation_g5", "1", not_negative},
       {"relaxation_tau5", "s", positive},
+      {"stress_zero", "Pa", any},
+      {"strain_zero", "1", any},
       {"touch_offset", "m", any},
       {"compliance", "m/N", any},
       {"force_offset", "N", any},

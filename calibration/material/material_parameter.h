@@ -51,6 +51,9 @@ enum class MaterialParameter {
   relaxation_tau4,
   relaxation_g5,
   relaxation_tau5,
+  // What a machine tells of a specimen at rest, material_tests/law_zeros.h.
+  stress_zero,  ///< [Pa]
+  strain_zero,
   // What a machine adds, rig_model.h.
   touch_offset,  ///< travel at first touch [m]
   compliance,    ///< of the machine [m/N]

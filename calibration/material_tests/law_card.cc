@@ -28,7 +28,7 @@ VectorXd estimates_of(const LawCard& card) {
   return values;
 }
 
-std::string quantity_text(double value, std::string_view unit) {
+std::string toml_quantity(double value, std::string_view unit) {
   return unit == "1" ? to_text(value) : toml_text(to_text(value) + " " + std::string(unit));
 }
 
@@ -53,10 +53,10 @@ constexpr AboutText about_texts[] = {
     {"rejected", &LawCard::rejected}};
 
 std::string lines_of(std::string_view key, const CardValue& number, std::string_view unit) {
-  std::string text = std::string(key) + " = " + quantity_text(number.value, unit) + '\n';
+  std::string text = std::string(key) + " = " + toml_quantity(number.value, unit) + '\n';
   if (std::isfinite(number.lower) && std::isfinite(number.upper))
-    text += std::string(key) + "_interval = [" + quantity_text(number.lower, unit) + ", " +
-            quantity_text(number.upper, unit) + "]\n";
+    text += std::string(key) + "_interval = [" + toml_quantity(number.lower, unit) + ", " +
+            toml_quantity(number.upper, unit) + "]\n";
   return text;
 }
 
@@ -81,14 +81,14 @@ std::string card_toml(const LawCard& card) {
   if (card.bulk_modulus) text += lines_of("bulk_modulus", *card.bulk_modulus, "Pa");
   text +=
       "\n[rubber]  # at small strain, of the coefficients, after long times\nyoungs_modulus = " +
-      quantity_text(card.bulk_modulus ? 9.0 * k * g / (3.0 * k + g) : 3.0 * g, "Pa") +
-      "\nshear_modulus = " + quantity_text(g, "Pa") + '\n';
+      toml_quantity(card.bulk_modulus ? 9.0 * k * g / (3.0 * k + g) : 3.0 * g, "Pa") +
+      "\nshear_modulus = " + toml_quantity(g, "Pa") + '\n';
   text += "\n[validity]\nsmallest_stretch = " + to_text(card.tested[0]) +
           "\nlargest_stretch = " + to_text(card.tested[1]) + '\n';
   for (const Range& each : ranges)
     if (const auto& range = card.*each.range)
-      text += std::string(each.first) + " = " + quantity_text((*range)[0], each.unit) + '\n' +
-              std::string(each.last) + " = " + quantity_text((*range)[1], each.unit) + '\n';
+      text += std::string(each.first) + " = " + toml_quantity((*range)[0], each.unit) + '\n' +
+              std::string(each.last) + " = " + toml_quantity((*range)[1], each.unit) + '\n';
   for (const CardTest& test : card.tests)
     text +=
         "\n[[test]]\nname = " + toml_text(test.name) + "\nkind = " + toml_text(name(test.kind)) +

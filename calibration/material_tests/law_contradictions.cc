@@ -9,10 +9,12 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "calibration/files/words.h"
 #include "calibration/material/relaxation_branches.h"
 #include "calibration/statistics/curve_checks.h"
+#include "meshes/rubber/plausible.h"
 
 namespace fingertip::calibration::inline material_tests {
 
@@ -32,6 +34,8 @@ constexpr double min_side = 0.1;
 /// Up to this logarithmic strain rubbers are neo-Hookean enough for a modulus [1], and moduli that
 /// differ by more than this factor contradict each other.
 constexpr double small_strain = 0.3, contradiction = 1.3;
+/// Likewise tests of one way of deforming.
+constexpr double scatter = 1.15;
 /// A specimen was slack where it bore less than this share of what a taut one would, and its
 /// curve asks for a later origin by so many standard errors.
 constexpr double bears_nothing = 0.2, surely = 5.0;
@@ -47,12 +51,6 @@ std::string instability_text(const meshes::Instability& at, const char* where) {
 
 std::string size_text(double share) {
   return rounded(100.0 * share, 3) + " %";
-}
-
-/// A sentence that forbids to use the law.
-void fail(LawFit& result, const std::string& sentence) {
-  result.contradictions.push_back(sentence);
-  result.failed.push_back(sentence);
 }
 
 void add_open_coefficients(LawFit& result) {
@@ -218,8 +216,82 @@ void add_slack(LawFit& result, const std::vector<MaterialTest>& tests) {
   }
 }
 
-/// Where moduli of small strain, by neo-Hooke, differ with the way of deforming.
-std::optional<std::string> contradiction_of_moduli(const std::vector<MaterialTest>& tests) {
+/// The modulus of small strain, by neo-Hooke, that points of tests ask for.
+class SmallStrainModulus {
+ public:
+  void add(const MaterialTest& test, std::size_t point) {
+    const double unit = (test.constraint.empty() ? 1.0 : test.constraint[point]) *
+                        test_stress({1.0, {}}, test.kind, test.measure, test.deformation[point]);
+    product_ += unit * test.stress[point];
+    square_ += unit * unit;
+  }
+  bool known() const { return square_ > 0.0; }
+  double value() const { return product_ / square_; }
+
+ private:
+  double product_ = 0.0, square_ = 0.0;
+};
+
+/// "a and b contradict": names and moduli of these, joined.
+struct Joined {
+  std::string names, moduli;
+};
+Joined joined(const std::map<std::string, SmallStrainModulus>& moduli) {
+  Joined text;
+  for (auto each = moduli.begin(); each != moduli.end(); ++each) {
+    const char* link = each == moduli.begin()            ? ""
+                       : std::next(each) == moduli.end() ? " and "
+                                                         : ", ";
+    text.names += link + each->first;
+    text.moduli += link + rounded(each->second.value(), 3) + " Pa in " + each->first;
+  }
+  return text;
+}
+
+/// Largest over least.
+double ratio_of(const std::map<std::string, SmallStrainModulus>& moduli) {
+  const auto [least, most] =
+      std::ranges::minmax_element(moduli, {}, [](const auto& each) { return each.second.value(); });
+  return most->second.value() / least->second.value();
+}
+
+/// Of tests that differ: whether the modulus grows with their rates, and by how many times these
+/// differ; 1: no.
+double growth_with_rate(const std::vector<MaterialTest>& tests,
+                        const std::map<std::string, SmallStrainModulus>& moduli) {
+  std::vector<std::pair<double, double>> known;
+  for (const MaterialTest& test : tests)
+    if (const auto found = moduli.find(test.name); found != moduli.end() && test.rate)
+      known.emplace_back(*test.rate, found->second.value());
+  std::ranges::sort(known);
+  const bool grows = known.size() == moduli.size() && known.size() > 1 &&
+                     std::ranges::is_sorted(known, {}, &std::pair<double, double>::second);
+  return grows ? known.back().first / known.front().first : 1.0;
+}
+
+std::string specimens_sentence(const std::vector<MaterialTest>& tests, const std::string& way,
+                               const std::map<std::string, SmallStrainModulus>& moduli,
+                               double strain) {
+  constexpr double other_rate = 3.0;
+  const Joined text = joined(moduli);
+  const double rates = growth_with_rate(tests, moduli);
+  const std::string differ = "tests in " + way + " differ: up to the logarithmic strain " +
+                             rounded(strain, 2) + " they ask for G = " + text.moduli + ". ";
+  if (rates > other_rate)
+    return differ + "Their rates differ " + rounded(rates, 2) +
+           " times, and G grows with them, so that the rubber likely relaxes: fit tests of one "
+           "rate, or tests in time (kind = \"relaxation\" or \"cycles\") with a law +prony";
+  return differ +
+         "Specimens that scatter are one test: path = [...] of all of them, whose mean is fitted "
+         "and whose scatter the intervals have. Else look at areas, lengths and batches";
+}
+
+/// Where moduli of small strain, by neo-Hooke, differ between tests of one way of deforming, and
+/// with the way.
+struct ModuliThatDiffer {
+  std::vector<std::string> specimens, ways;
+};
+ModuliThatDiffer moduli_that_differ(const std::vector<MaterialTest>& tests) {
   const auto tells = [](const MaterialTest& test) {
     return test.kind != TestKind::volumetric && test.course == TestCourse::slow;
   };
@@ -227,36 +299,31 @@ std::optional<std::string> contradiction_of_moduli(const std::vector<MaterialTes
   for (const MaterialTest& test : tests)
     for (const TestPart& part : parts_of(test))
       if (tells(test)) common = std::min(common, part.strain);
-  struct Sums {
-    double product = 0.0, square = 0.0;
-    double modulus() const { return product / square; }
-  };
-  std::map<std::string, Sums> ways;
+  std::map<std::string, SmallStrainModulus> ways;
+  std::map<std::string, std::map<std::string, SmallStrainModulus>> specimens;
   for (const MaterialTest& test : tests)
     for (const TestPart& part : parts_of(test))
       for (const std::size_t i : part.points) {
-        const double l = test.deformation[i];
-        if (!tells(test) || strain_size(test.kind, l) > 1.001 * common) continue;
-        const double unit = (test.constraint.empty() ? 1.0 : test.constraint[i]) *
-                            test_stress({1.0, {}}, test.kind, test.measure, l);
-        ways[part.way].product += unit * test.stress[i];
-        ways[part.way].square += unit * unit;
+        if (!tells(test) || strain_size(test.kind, test.deformation[i]) > 1.001 * common) continue;
+        ways[part.way].add(test, i);
+        specimens[part.way][test.name].add(test, i);
       }
-  std::erase_if(ways, [](const auto& way) { return !(way.second.square > 0.0); });
-  if (ways.size() < 2) return std::nullopt;
-  const auto [least, most] =
-      std::ranges::minmax_element(ways, {}, [](const auto& way) { return way.second.modulus(); });
-  if (most->second.modulus() <= contradiction * least->second.modulus()) return std::nullopt;
-  std::string names, moduli;
-  for (auto way = ways.begin(); way != ways.end(); ++way) {
-    const char* link = way == ways.begin() ? "" : std::next(way) == ways.end() ? " and " : ", ";
-    names += link + way->first;
-    moduli += link + rounded(way->second.modulus(), 3) + " Pa in " + way->first;
+  const auto unknown = [](const auto& each) { return !each.second.known(); };
+  ModuliThatDiffer found;
+  for (auto& [way, moduli] : specimens) {
+    std::erase_if(moduli, unknown);
+    if (moduli.size() > 1 && ratio_of(moduli) > scatter)
+      found.specimens.push_back(specimens_sentence(tests, way, moduli, common));
   }
-  return names + " contradict each other: up to the logarithmic strain " + rounded(common, 2) +
-         " they ask for G = " + moduli +
-         ", and a rubber that keeps its volume has one. Is it compressible (a foam)? Else look at "
-         "areas, slack, plates that stick, and specimens of another batch";
+  std::erase_if(ways, unknown);
+  if (ways.size() < 2 || ratio_of(ways) <= contradiction) return found;
+  const Joined text = joined(ways);
+  found.ways.push_back(text.names + " contradict each other: up to the logarithmic strain " +
+                       rounded(common, 2) + " they ask for G = " + text.moduli +
+                       ", and a rubber that keeps its volume has one. Is it compressible (a foam)? "
+                       "Else look at areas, slack, plates that stick, and specimens of another "
+                       "batch");
+  return found;
 }
 
 void add_misfits(LawFit& result, const std::vector<MaterialTest>& tests) {
@@ -266,6 +333,7 @@ void add_misfits(LawFit& result, const std::vector<MaterialTest>& tests) {
                                       size_text(misfit.rms_relative) +
                                       "): " + misfit.structure.statement);
   if (result.fit.chi_square_probability && result.fit.birge_ratio == 1.0) return;
+  // Why a test is missed comes behind.
   const std::size_t failed = result.failed.size();
   for (std::size_t t = 0; t < tests.size(); ++t)
     for (const TestPart& part : parts_of(tests[t])) {
@@ -279,11 +347,19 @@ void add_misfits(LawFit& result, const std::vector<MaterialTest>& tests) {
               missed("the law", part.name, residuals, measured, largest_misfit_of_law))
         fail(result, *sentence);
     }
+  const ModuliThatDiffer moduli = moduli_that_differ(tests);
+  if (result.choice.branches == 0)
+    for (const std::string& sentence : moduli.specimens) fail(result, sentence);
   if (result.failed.size() == failed) return;
-  if (const auto sentence = contradiction_of_moduli(tests)) fail(result, *sentence);
+  for (const std::string& sentence : moduli.ways) fail(result, sentence);
 }
 
 }  // namespace
+
+void fail(LawFit& result, const std::string& sentence) {
+  result.contradictions.push_back(sentence);
+  result.failed.push_back(sentence);
+}
 
 void add_contradictions(LawFit& result, const std::vector<MaterialTest>& tests,
                         const LawFitOptions& options) {
@@ -291,6 +367,11 @@ void add_contradictions(LawFit& result, const std::vector<MaterialTest>& tests,
   add_open_coefficients(result);
   if (result.times) result.open_branches = open_branches(result.relaxation, *result.times);
   for (const std::string& sentence : result.open_branches) fail(result, sentence);
+  for (const MaterialTest& test : tests)
+    for (const std::string& doubt : test.doubts) fail(result, doubt);
+  // Of a rubber that keeps its volume.
+  const std::string modulus = meshes::implausible_modulus(3.0 * result.law.shear_modulus);
+  if (!modulus.empty()) fail(result, modulus);
   add_slack(result, tests);
   add_misfits(result, tests);
 }

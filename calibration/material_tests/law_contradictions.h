@@ -1,9 +1,15 @@
 /// What speaks against a law that was fitted, in plain sentences (LawFit::contradictions).
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "calibration/material_tests/law_result.h"
 
 namespace fingertip::calibration::inline material_tests {
+
+/// A sentence that forbids to use the law.
+void fail(LawFit& result, const std::string& sentence);
 
 /// Of the fit to `tests` itself; looks for instabilities, for branches that the tests do not reach
 /// and for what it misses.

@@ -10,7 +10,9 @@
 #include "calibration/files/words.h"
 #include "calibration/material_tests/law_contradictions.h"
 #include "calibration/material_tests/law_starts.h"
+#include "calibration/material_tests/law_zeros.h"
 #include "calibration/material_tests/relaxation_starts.h"
+#include "calibration/material_tests/strain_grid.h"
 #include "calibration/statistics/curve_fit.h"
 #include "calibration/statistics/fit_statistics.h"
 #include "meshes/base/errors.h"
@@ -186,6 +188,28 @@ CurveFitOptions starts_of(const std::vector<MaterialTest>& tests,
   return fit;
 }
 
+/// What is off in all values of a test together, over their scales: a factor on a mean of specimens
+/// that scatter, and the zero that was taken off. Empty where there is none.
+Eigen::MatrixXd shared_errors(const std::vector<MaterialTest>& tests,
+                              const std::vector<std::vector<double>>& scales,
+                              const std::vector<Curve>& curves) {
+  const auto exact = [](const MaterialTest& test) {
+    return test.specimens.size() < 2 && test.stress_zero_error == 0.0;
+  };
+  if (std::ranges::all_of(tests, exact)) return {};
+  const Index rows = first_value(curves, curves.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(rows, rows);
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const VectorXd factor = error_of_mean(tests[t].specimens) * values_of(curves[t]),
+                   zero = tests[t].stress_zero_error *
+                          VectorXd::Map(scales[t].data(), Index(scales[t].size())).cwiseInverse();
+    const Index first = first_value(curves, t);
+    covariance.block(first, first, factor.size(), factor.size()) =
+        factor * factor.transpose() + zero * zero.transpose();
+  }
+  return covariance;
+}
+
 void check_points(Index points, Index coefficients, const LawChoice& choice) {
   if (points > coefficients) return;
   throw InvalidInput({"tests", std::to_string(points) + " points",
@@ -211,12 +235,15 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
     points += Index(test.stress.size());
   }
   CurveFitOptions fit = starts_of(tests, scales, choice, options, done);
+  const std::vector<ZeroPlaces> zeros = add_zeros(tests, fit);
+  fit.model_covariance = shared_errors(tests, scales, curves);
   const std::vector<MaterialParameter> parameters = parameters_in(fit);
   check_points(points, Index(parameters.size()), choice);
-  std::vector<std::unique_ptr<LawModel>> models;
+  std::vector<std::unique_ptr<ZeroedModel>> models;
   std::vector<ForwardModel*> addresses;
   for (std::size_t t = 0; t < tests.size(); ++t) {
-    models.push_back(std::make_unique<LawModel>(tests[t], scales[t], choice, parameters));
+    models.push_back(
+        std::make_unique<ZeroedModel>(tests[t], scales[t], choice, parameters, zeros[t]));
     addresses.push_back(models.back().get());
   }
   result.choice = choice;
@@ -232,14 +259,25 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
   result.fit.influence.resize(0, 0);
   result.law = sized_law(choice, result.fit.estimates);
   result.relaxation = relaxation_of(choice, result.fit.estimates);
-  if (parameters.back() == MaterialParameter::bulk_modulus)
-    result.bulk_modulus = result.fit.estimates(result.fit.estimates.size() - 1);
+  const auto bulk = std::ranges::find(parameters, MaterialParameter::bulk_modulus);
+  if (bulk != parameters.end())
+    result.bulk_modulus = result.fit.estimates(Index(bulk - parameters.begin()));
   result.aicc = corrected_criterion(result.fit, points, !curves.front().sigma.empty());
   result.tested = stretch_range(tests);
-  for (const MaterialTest& test : tests)
-    result.fitted.push_back(predict(result, test, options.weights));
-  result.untested = untested_modes(result, tests, options);
-  add_contradictions(result, tests, options);
+  std::vector<MaterialTest> zeroed;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const auto found = [&](const std::optional<Index>& place) {
+      return place ? result.fit.estimates(*place) : 0.0;
+    };
+    const double stress = found(zeros[t].stress), strain = found(zeros[t].strain);
+    zeroed.push_back(without_zeros(tests[t], stress, strain));
+    result.fitted.push_back(predict(result, zeroed.back(), options.weights));
+    result.fitted.back().stress_zero = stress;
+    result.fitted.back().strain_zero = strain;
+  }
+  result.tested = stretch_range(zeroed);
+  result.untested = untested_modes(result, zeroed, options);
+  add_contradictions(result, zeroed, options);
   return result;
 }
 
@@ -287,6 +325,9 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
     return a.aicc < b.aicc;
   });
   add_differences(equals(ranking), ranking);
+  for (const std::string& sentence : zeros_that_show(tests, ranking, options))
+    for (LawFit& fit : ranking)
+      if (fit.failure.empty()) fail(fit, sentence);
   return ranking;
 }
 
@@ -335,6 +376,43 @@ double wildness(const LawFit& law, const Laws& laws) {
 }
 
 }  // namespace
+
+ModulusOfLaws modulus_of(const LawFit& fit) {
+  const VectorXd slopes = shear_modulus_slopes(fit.choice, fit.fit.estimates);
+  const Index own = slopes.size();
+  const double variance = slopes.dot(fit.fit.covariance.topLeftCorner(own, own) * slopes);
+  // Half an interval over a standard error, the same for all coefficients.
+  double half = 0.0;
+  for (Index i = 0; i < own; ++i)
+    if (fit.fit.standard_errors(i) > 0.0)
+      half =
+          std::max(half, (fit.fit.upper(i) - fit.fit.lower(i)) / 2.0 / fit.fit.standard_errors(i));
+  half *= std::sqrt(variance);
+  const double g = fit.law.shear_modulus;
+  return {g, g - half, g + half, {&fit}};
+}
+
+ModulusOfLaws modulus_of_laws(const std::vector<LawFit>& ranking, const LawFit& taken) {
+  const auto stable = [](const LawFit& fit) {
+    return fit.failure.empty() && !fit.unstable_in_tests && !fit.unstable_in_use &&
+           !fit.unstable_in_press;
+  };
+  const auto best = std::ranges::find_if(ranking, stable);
+  const double best_aicc = best == ranking.end() ? taken.aicc : best->aicc;
+  ModulusOfLaws all = modulus_of(taken);
+  all.laws.clear();
+  for (const LawFit& fit : ranking) {
+    if (&fit != &taken && !(stable(fit) && fit.aicc <= best_aicc + as_good_aicc)) continue;
+    const ModulusOfLaws own = modulus_of(fit);
+    if (&fit != &taken && !(own.upper - own.lower <= own.value)) continue;
+    all.laws.push_back(&fit);
+    all.lower = std::min(all.lower, own.lower);
+    all.upper = std::max(all.upper, own.upper);
+    if (const auto& zero = fit.with_free_zero; zero && zero->aicc <= best_aicc + as_good_aicc)
+      all.lower = std::min(all.lower, zero->lower), all.upper = std::max(all.upper, zero->upper);
+  }
+  return all;
+}
 
 std::vector<const LawFit*> equals(const std::vector<LawFit>& ranking) {
   Laws laws;

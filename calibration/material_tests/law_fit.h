@@ -41,6 +41,19 @@ inline constexpr double supporting_error = 0.15;
 /// no law passed its tests, the first that is stable, else the first.
 const LawFit* recommended(const std::vector<LawFit>& ranking);
 
+/// The shear modulus at rest, after long times [Pa], with its 95 % interval.
+struct ModulusOfLaws {
+  double value = 0.0, lower = 0.0, upper = 0.0;
+  std::vector<const LawFit*> laws;  ///< whose intervals it holds, of a ranking
+};
+/// Of one law, by its coefficients' covariance.
+ModulusOfLaws modulus_of(const LawFit& fit);
+/// Of the law `taken`, with the intervals of all stable laws of the ranking that are supported as
+/// well as the best of them (as_good_aicc) and tell G within a factor of two: tests do not choose
+/// among these, and at rest they differ; and, where nothing tells the stress's zero, with those
+/// that a free one leaves.
+ModulusOfLaws modulus_of_laws(const std::vector<LawFit>& ranking, const LawFit& taken);
+
 /// The laws that it chooses among; none where none passed its own tests.
 std::vector<const LawFit*> equals(const std::vector<LawFit>& ranking);
 

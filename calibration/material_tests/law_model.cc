@@ -160,6 +160,11 @@ SizedLaw sized_law(const LawChoice& choice, const VectorXd& c) {
   return {law.shear_modulus, {choice.law, meshes::VolumetricLaw::quadratic, law.shape}};
 }
 
+VectorXd shear_modulus_slopes(const LawChoice& choice, const VectorXd& coefficients) {
+  return law_with_slopes(choice, coefficients)
+      .shear_modulus.v.head(Index(law_coefficients(choice).size()));
+}
+
 double test_stress(const SizedLaw& law, TestKind kind, StressMeasure measure, double deformation) {
   const auto response = principal_response(law.energy, principal_stretches(kind, deformation));
   if (!std::isfinite(response.energy)) return std::numeric_limits<double>::infinity();

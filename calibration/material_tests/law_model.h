@@ -51,6 +51,9 @@ struct SizedLaw {
 /// InvalidInput unless G > 0.
 SizedLaw sized_law(const LawChoice& choice, const Eigen::VectorXd& coefficients);
 
+/// d(G)/d(coefficients) there.
+Eigen::VectorXd shear_modulus_slopes(const LawChoice& choice, const Eigen::VectorXd& coefficients);
+
 /// Stress [Pa] of an incompressible body after long times: with tau_k of `principal_response` and l
 /// the deformation
 ///

@@ -17,6 +17,7 @@ LawTestEntry law_test(const LawChoice& law, const MaterialTest& test, const Test
                       const char* use) {
   LawTestEntry entry{misfit, std::string(name(test.kind)), use, std::string(name(test.course)),
                      test.rate};
+  entry.specimens = test.specimens;
   if (const auto found = test.published.find(calibration::name(law)); found != test.published.end())
     entry.published = found->second;
   return entry;
@@ -50,6 +51,28 @@ LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
   return entry;
 }
 
+/// Why a law of a lower AICc than `best` is not taken; "" of others.
+std::string why_passed_over(const LawFit& fit, const LawFit& best,
+                            const std::vector<LawFit>& ranking) {
+  if (!fit.failure.empty() || &fit >= &best) return "";
+  if (!fit.failed.empty()) return fit.failed.front();
+  const std::vector<const LawFit*> chosen_among = equals(ranking);
+  if (std::ranges::find(chosen_among, &fit) == chosen_among.end())
+    return "misses the tests by more than others that repeat as specimens do";
+  if (best.aicc <= fit.aicc + as_good_aicc && best.fit.estimates.size() < fit.fit.estimates.size())
+    return name(best.choice) + " is as good with fewer coefficients";
+  for (const TestMisfit& misfit : fit.predicted)
+    if (!(misfit.rms_relative <= supporting_error))
+      return "misses " + misfit.name + ", which was held back, by " + percent(misfit.rms_relative);
+  for (std::size_t i = 0; i < fit.untested.size() && i < best.untested.size(); ++i)
+    if (fit.untested[i].share > best.untested[i].share)
+      return "asks in " + std::string(name(fit.untested[i].mode)) +
+             ", which no test tells of, for " +
+             rounded(fit.untested[i].share / best.untested[i].share, 2) + " times the stress of " +
+             name(best.choice);
+  return "errs more over all tests than " + name(best.choice);
+}
+
 /// Why it is taken, as far as AICc does not tell.
 std::string reason_of_choice(const LawFit& best, const std::vector<LawFit>& ranking) {
   const std::size_t count = equals(ranking).size();
@@ -71,6 +94,26 @@ std::string reason_of_choice(const LawFit& best, const std::vector<LawFit>& rank
   if (&best == &first || simpler) return as_good + ".";
   return best.predicted.empty() ? ", which passes its own tests."
                                 : ", which passes its own tests and predicts what was held back.";
+}
+
+/// G at rest, which goes into the file, in words.
+std::string modulus_statement(const std::vector<LawFit>& ranking, const LawFit& best,
+                              LawsFile& file) {
+  const ModulusOfLaws modulus = modulus_of_laws(ranking, best);
+  file.shear_modulus = modulus.value;
+  file.shear_modulus_lower = modulus.lower;
+  file.shear_modulus_upper = modulus.upper;
+  for (const LawFit* law : modulus.laws) file.supported.push_back(name(law->choice));
+  const bool several = modulus.laws.size() > 1;
+  return " At rest G = " + quantity_text(modulus.value, "Pa", 4) +
+         " (95 %: " + quantity_text(modulus.lower, "Pa", 4) + " to " +
+         quantity_text(modulus.upper, "Pa", 4) +
+         (several ? ", over " + std::to_string(modulus.laws.size()) +
+                        " laws that the tests support alike)"
+                  : ")") +
+         (best.bulk_modulus
+              ? "."
+              : ", and E = 3 G = " + quantity_text(3.0 * modulus.value, "Pa", 4) + ".");
 }
 
 }  // namespace
@@ -95,6 +138,8 @@ LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<Materia
     return file;
   }
   file.recommended = name(best->choice);
+  for (std::size_t i = 0; i < ranking.size(); ++i)
+    file.laws[i].passed_over = why_passed_over(ranking[i], *best, ranking);
   file.failed = best->failed;
   const bool first = best == &ranking.front();
   file.statement = "Of " + std::to_string(ranking.size()) + " laws " +
@@ -105,6 +150,7 @@ LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<Materia
   else
     file.statement = "Not accepted: no law passes its own tests. " + file.statement +
                      (first ? "." : "; " + file.recommended + " is shown.");
+  file.statement += modulus_statement(ranking, *best, file);
   for (std::size_t i = 0; i < validation.size(); ++i)
     file.statement += " It predicts " + validation[i].name + " within " +
                       rounded(100.0 * best->predicted[i].rms_relative, 3) + " % (rms), " +
@@ -122,7 +168,7 @@ std::vector<LawDataRow> law_data(const std::vector<LawFit>& ranking,
                          const std::vector<TestMisfit>& misfits, const char* use) {
       for (std::size_t t = 0; t < from.size(); ++t)
         for (std::size_t i = 0; i < from[t].stress.size(); ++i) {
-          const double computed = misfits[t].stress[i];
+          const double computed = misfits[t].stress[i] + misfits[t].stress_zero;
           rows.push_back({name(fit.choice), from[t].name, use, from[t].deformation[i],
                           from[t].stress[i], std::isfinite(computed) ? computed : unknown,
                           from[t].time.empty() ? unknown : from[t].time[i]});

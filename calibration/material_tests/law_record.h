@@ -17,12 +17,14 @@ struct LawTestEntry : TestMisfit {
   std::string course = "slow";
   std::optional<double> rate = {};
   double published = meshes::unknown;  ///< sum of squares that somebody else's fit left [Pa²]
+  std::vector<double> specimens = {};  ///< of a mean of several every one's stress over it
 };
 consteval auto fields_of(const LawTestEntry*) {
   return FINGERTIP_MEMBERS(LawTestEntry, name, kind, use, points, rms, rms_relative,
                            largest_relative, sum_of_squares, within, in_range, structure, course,
-                           rate, loop_measured, loop_computed, published)
-      .newer("course rate loop_measured loop_computed published");
+                           rate, loop_measured, loop_computed, published, stress_zero, strain_zero,
+                           specimens)
+      .newer("course rate loop_measured loop_computed published stress_zero strain_zero specimens");
 }
 
 /// Where a law stops being stable.
@@ -43,16 +45,24 @@ struct LawEntry {
   std::vector<MinimumEntry> minima;
   std::vector<std::string> contradictions;
   std::string failure;
+  std::string passed_over;  ///< why it is not taken though its AICc is lower
 };
-FINGERTIP_FIELDS(LawEntry, law, parameters, shear_modulus, aicc, covariance, tests,
-                 unstable_in_tests, unstable_in_use, unstable_in_press, minima, contradictions,
-                 failure);
+consteval auto fields_of(const LawEntry*) {
+  return FINGERTIP_ALL_MEMBERS(LawEntry, law, parameters, shear_modulus, aicc, covariance, tests,
+                               unstable_in_tests, unstable_in_use, unstable_in_press, minima,
+                               contradictions, failure, passed_over)
+      .newer("passed_over");
+}
 
 /// laws.json.
 struct LawsFile {
   std::string problem, weights, recommended;
   double smallest_stretch = meshes::unknown, largest_stretch = meshes::unknown;
   double shortest_time = meshes::unknown, longest_time = meshes::unknown;  ///< of tests in time
+  /// At rest, of the recommended law; its 95 % interval over all laws that the tests support alike.
+  double shear_modulus = meshes::unknown, shear_modulus_lower = meshes::unknown,
+         shear_modulus_upper = meshes::unknown;
+  std::vector<std::string> supported;                                      ///< their names
   std::vector<LawEntry> laws;                                              ///< the least AICc first
   std::vector<std::string> failed;  ///< LawFit::failed of the recommended one; or why there is none
   std::string statement;
@@ -60,8 +70,11 @@ struct LawsFile {
 consteval auto fields_of(const LawsFile*) {
   return FINGERTIP_ALL_MEMBERS(LawsFile, problem, weights, recommended, smallest_stretch,
                                largest_stretch, laws, statement, shortest_time, longest_time,
-                               failed)
-      .newer("shortest_time longest_time failed");
+                               failed, shear_modulus, shear_modulus_lower, shear_modulus_upper,
+                               supported)
+      .newer(
+          "shortest_time longest_time failed shear_modulus shear_modulus_lower "
+          "shear_modulus_upper supported");
 }
 
 /// law_data.csv: a measured stress beside those of a law.

@@ -52,6 +52,9 @@ struct TestMisfit {
   /// covariance and the residuals' deviation; NaN without degrees of freedom. Residuals of one test
   /// hang together, and specimens differ: a share far below 0.95 says that they do.
   double within = 0.0;
+  /// What the fit has found for a test whose zeros it sought: `stress` is that of the law at the
+  /// deformations less the second, and adds to the first.
+  double stress_zero = 0.0, strain_zero = 0.0;
   bool in_range = true;        ///< the stretches are among those of the fitted tests
   std::vector<double> stress;  ///< of the law at the test's points [Pa]
   /// Of cycles: loop_area of the stresses measured and of the law's [J/m³]; else NaN.
@@ -67,6 +70,11 @@ struct UntestedMode {
   double share = 0.0;    ///< |stress| over that in the way tested, at the same largest stretch
 };
 
+/// The shear modulus at rest of a law whose tests' stresses have a zero each that nobody knows.
+struct FreeZero {
+  double aicc = 0.0, lower = 0.0, upper = 0.0;  ///< of the fit; 95 % [Pa]
+};
+
 struct LawFit {
   LawChoice choice;
   /// Over scaled stresses, without whitening and influence; coefficients, then bulk_modulus where
@@ -75,6 +83,7 @@ struct LawFit {
   SizedLaw law;
   meshes::Relaxation relaxation;       ///< the fastest branch first
   std::optional<double> bulk_modulus;  ///< [Pa]; none: no volumetric test
+  std::optional<FreeZero> with_free_zero;  ///< where rank_laws has tried it
   /// n ln(S/n) + 2k + 2k(k + 1)/(n - k - 1), n residuals of weighted sum of squares S, k the
   /// coefficients and, without sigma, the deviation (Hurvich & Tsai, Biometrika 76, 297, 1989);
   /// with sigma S + 2k + ... Infinite where n <= k + 1.

@@ -70,7 +70,8 @@ std::vector<Violation> MaterialTest::violations() const {
     refuse(
         "deformation", to_text(value),
         "must be positive, at most 20 (a stretch at least 1/20) and increase from point to point",
-        "sort the points, and look at the definition of strain and its unit");
+        "look at the definition of strain and its unit (per cent have unit = \"%\"), and sort the "
+        "points");
     break;
   }
   if (course != TestCourse::slow) append(found, time_violations());

@@ -92,7 +92,15 @@ struct MaterialTest {
   /// Where the plates hold the ends of a cylinder: the force over that between plates that slip, at
   /// every deformation; empty: 1.
   std::vector<double> constraint = {};
-  std::optional<double> rate = {};  ///< nominal strain rate [1/s], where known
+  /// Of a mean of specimens every specimen's stress over it; else empty.
+  std::vector<double> specimens = {};
+  /// Whether a stress that the load cell tells at rest, and a strain that the specimen has then,
+  /// are sought with the law; of slow tests, the second one of a nominal strain or a shear.
+  bool stress_zero_sought = false, strain_zero_sought = false;
+  bool stress_zero_known = false;        ///< rows at rest, or the file's description, tell it
+  double stress_zero_error = 0.0;        ///< standard error of what was taken off [Pa]
+  std::vector<std::string> doubts = {};  ///< why no law fitted to it is accepted, sentences
+  std::optional<double> rate = {};       ///< nominal strain rate [1/s], where known
   TestCourse course = TestCourse::slow;
   /// Of a course that is not slow: when every stress was measured, increasing [s], and how the
   /// specimen was deformed from before the first of them until the last. Before it was at rest.

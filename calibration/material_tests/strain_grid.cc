@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/statistics/fit_statistics.h"
+
 namespace fingertip::calibration::inline material_tests {
 
 namespace {
@@ -24,24 +26,6 @@ double interpolated(const StrainCurve& curve, double way, double strain) {
 
 }  // namespace
 
-CurveCleaning clean(StrainCurve& curve, const std::optional<std::array<double, 2>>& range) {
-  CurveCleaning removed;
-  removed.empty = std::erase_if(
-      curve, [](const CurveRow& row) { return std::isnan(row.x) || std::isnan(row.y); });
-  removed.outside = std::erase_if(curve, [&](const CurveRow& row) {
-    return range && (row.x < (*range)[0] || row.x > (*range)[1]);
-  });
-  if (curve.empty()) return removed;
-  const double way = direction(curve);
-  double farthest = -INFINITY;
-  removed.backward = std::erase_if(curve, [&](const CurveRow& row) {
-    const bool back = way * row.x <= farthest;
-    farthest = std::max(farthest, way * row.x);
-    return back;
-  });
-  return removed;
-}
-
 std::optional<StrainCurve> mean_curve(const std::vector<StrainCurve>& curves, std::size_t points) {
   const double way = direction(curves.front());
   double start = way * curves.front().front().x, end = way * curves.front().back().x;
@@ -59,6 +43,34 @@ std::optional<StrainCurve> mean_curve(const std::vector<StrainCurve>& curves, st
     mean.push_back({strain, sum / double(curves.size())});
   }
   return mean;
+}
+
+std::vector<double> factors_of(const std::vector<StrainCurve>& curves, const StrainCurve& mean) {
+  std::vector<double> factors;
+  const double way = direction(mean);
+  for (const StrainCurve& curve : curves) {
+    double product = 0.0, square = 0.0;
+    for (const CurveRow& row : mean) {
+      product += row.y * interpolated(curve, way, row.x);
+      square += row.y * row.y;
+    }
+    factors.push_back(product / square);
+  }
+  return factors;
+}
+
+double scatter_of(const std::vector<double>& factors) {
+  const auto count = double(factors.size());
+  double mean = 0.0, squares = 0.0;
+  for (const double factor : factors) mean += factor / count;
+  for (const double factor : factors) squares += (factor - mean) * (factor - mean);
+  return factors.size() < 2 ? 0.0 : std::sqrt(squares / (count - 1.0));
+}
+
+double error_of_mean(const std::vector<double>& factors) {
+  if (factors.size() < 2) return 0.0;
+  return student_95(int(factors.size()) - 1) / normal_95() * scatter_of(factors) /
+         std::sqrt(double(factors.size()));
 }
 
 }  // namespace fingertip::calibration::inline material_tests

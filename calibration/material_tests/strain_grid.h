@@ -1,7 +1,6 @@
-/// Curves of stress over strain as they stand in files: cleaned, and averaged over repeats.
+/// Curves of stress over strain of several specimens: their mean and their scatter.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -10,21 +9,22 @@
 
 namespace fingertip::calibration::inline material_tests {
 
-/// Strains x and stresses y in a file's own units, signs and order; NaN where a cell is empty.
+/// Strains x, growing or falling from row to row, and stresses y.
 using StrainCurve = std::vector<CurveRow>;
 
-/// How many points were left out.
-struct CurveCleaning {
-  std::size_t empty = 0, outside = 0, backward = 0;
-};
-
-/// Leaves out points with an empty cell, outside of `range` of the strain, and those whose strain
-/// is not beyond all before it, in the direction in which the curve goes on the whole.
-CurveCleaning clean(StrainCurve& curve, const std::optional<std::array<double, 2>>& range);
-
 /// Mean stress at `points` >= 2 equal steps of the strain that all curves reach, each interpolated
-/// linearly. Curves are cleaned, of two points or more, and go in one direction; none where they
-/// do not, or have no strain in common.
+/// linearly. Curves have two points or more; none where they go in different directions, or have no
+/// strain in common.
 std::optional<StrainCurve> mean_curve(const std::vector<StrainCurve>& curves, std::size_t points);
+
+/// Of every curve the least squares factor on the mean's stresses.
+std::vector<double> factors_of(const std::vector<StrainCurve>& curves, const StrainCurve& mean);
+
+/// Standard deviation of factors between specimens; 0 for less than two.
+double scatter_of(const std::vector<double>& factors);
+
+/// Standard deviation of a mean of so many specimens, over it, by which the normal distribution
+/// tells the 95 % interval that Student's t has for n - 1: t s / (1.96 sqrt(n)).
+double error_of_mean(const std::vector<double>& factors);
 
 }  // namespace fingertip::calibration::inline material_tests

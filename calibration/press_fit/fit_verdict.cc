@@ -6,6 +6,7 @@
 #include "calibration/press_fit/fit_record.h"
 #include "calibration/statistics/fit_statistics.h"
 #include "meshes/base/errors.h"
+#include "meshes/rubber/plausible.h"
 
 namespace fingertip::calibration::inline press_fit {
 
@@ -17,8 +18,6 @@ using Sentences = std::vector<std::string>;
 
 /// A curve missed by more than this share, by relative_rms, is not described, whatever its noise.
 constexpr double largest_misfit = 0.1;
-/// The softest gels and the hardest plastics [Pa].
-constexpr double softest = 1e2, hardest = 1e10;
 
 void judge_misfit(Sentences& found, const FitRecord& record) {
   const CurveFit& fit = record.fit;
@@ -157,11 +156,8 @@ void judge_identifiability(Sentences& found, const FitRecord& record) {
 void judge_material(Sentences& found, const FitRecord& record) {
   for (const meshes::Violation& violation : record.material.violations())
     found.push_back("the estimates are no rubber: " + to_string(violation));
-  const double e = record.material.rubber.youngs_modulus;
-  if (record.problem != "damping" && !(e >= softest && e <= hardest))
-    found.push_back("E = " + rounded(e, 3) +
-                    " Pa is no rubber's, which lies between 100 Pa and 10 GPa: check the units of "
-                    "the data");
+  const std::string modulus = meshes::implausible_modulus(record.material.rubber.youngs_modulus);
+  if (record.problem != "damping" && !modulus.empty()) found.push_back(modulus);
 }
 
 }  // namespace

@@ -31,6 +31,9 @@ struct Curve {
   /// Of every value, from the first row on [s]; empty where unknown or of no interest.
   std::vector<double> time = {};
   bool is_travel = false;  ///< x is the travel of a machine, whose zero is anywhere
+  /// Of a press: nobody has told the load cell's zero, and the file's rows or its description ask
+  /// for it.
+  bool zero_is_sought = false;
   bool in_time = false;    ///< values follow each other in time, and x may stand still
   LoadingHistory course = {};
 };

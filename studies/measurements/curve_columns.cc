@@ -7,7 +7,6 @@
 #include <functional>
 #include <utility>
 
-#include "studies/config/text/units.h"
 #include "studies/measurements/curve_text.h"
 
 namespace fingertip::studies::inline measurements {
@@ -16,35 +15,57 @@ namespace {
 
 using std::string_view;
 
-/// What people and machines call the same, in English, German, French, Spanish, Italian and
-/// Chinese; in small letters without accents, with _ for blanks, and blanks on either side.
+/// What people and machines call the same, in the languages that machines speak; in small letters
+/// without accents, with _ for blanks, and blanks on either side.
 constexpr std::pair<string_view, string_view> other_names[] = {
     {"force",
-     " normal_force standard_force compressive_force compression_force load "
-     "compressive_load kraft standardkraft prufkraft normalkraft druckkraft "
-     "last force_standard force_normale charge effort fuerza fuerza_estandar "
-     "fuerza_normal carga forza forza_standard forza_normale carico 力 试验力 载荷 "
-     "负荷 "},
+     " normal_force standard_force compressive_force compression_force load compressive_load "
+     "axial_force axial_load tensile_load tensile_force test_force load_cell load_on_sample fz "
+     "x_force y_force xforce yforce "
+     "kraft standardkraft prufkraft pruefkraft normalkraft druckkraft zugkraft axialkraft "
+     "force_standard force_normale force_axiale charge effort effort_normal "
+     "fuerza fuerza_estandar fuerza_normal fuerza_axial carga "
+     "forza forza_standard forza_normale forza_assiale carico "
+     "forca forca_normal forca_padrao forca_axial forca_de_compressao carga_de_compressao "
+     "sila sila_standardowa sila_normalna sila_sciskajaca obciazenie nacisk "
+     "kuvvet standart_kuvvet normal_kuvvet basma_kuvveti yuk basma_yuku "
+     "kracht standaardkracht normaalkracht drukkracht belasting last tryckkraft belastning "
+     "力 试验力 载荷 负荷 负载 压缩力 荷重 試験力 圧縮荷重 하중 힘 시험력 "},
     {"position",
-     " travel standard_travel extension compressive_extension compression "
-     "stroke crosshead crosshead_travel crosshead_position displacement "
-     "compressive_displacement distance standardweg weg traversenweg "
-     "verfahrweg hub verschiebung deplacement deplacement_standard "
-     "deplacement_traverse allongement allongement_standard course "
-     "desplazamiento alargamiento recorrido carrera posicion spostamento "
-     "allungamento corsa posizione 位移 行程 变形 横梁位移 "},
+     " travel standard_travel extension compressive_extension compression stroke crosshead "
+     "crosshead_travel crosshead_position crosshead_displacement machine_extension displacement "
+     "compressive_displacement tensile_extension tensile_displacement axial_displacement "
+     "axial_disp "
+     "axial_position digital_position actuator_position corrected_position "
+     "absolute_crosshead_travel "
+     "deflection disp disp. displ. xdisplacement ydisplacement distance "
+     "standardweg weg traversenweg verfahrweg maschinenweg traversenposition hub verschiebung "
+     "verformung deplacement deplacement_standard deplacement_traverse course_traverse allongement "
+     "allongement_standard course desplazamiento alargamiento recorrido carrera posicion "
+     "spostamento spostamento_traversa allungamento corsa corsa_traversa posizione "
+     "deslocamento deslocamento_padrao extensao curso percurso alongamento posicao "
+     "przemieszczenie droga droga_standardowa wydluzenie skok polozenie pozycja ugiecie "
+     "yer_degistirme deplasman uzama strok hareket konum pozisyon "
+     "verplaatsing standaardweg verlenging slag positie forskjutning vag standardvag forlangning "
+     "位移 行程 变形 横梁位移 伸长 ストローク 変位 クロスヘッド変位 伸び 변위 스트로크 "},
     {"indentation",
-     " indentation_depth penetration eindringtiefe eindruckung enfoncement "
-     "indentacion penetracion indentazione penetrazione 压入深度 "},
+     " indentation_depth penetration penetration_depth displacement_into_surface "
+     "eindringtiefe eindruckung eindringweg eindrucktiefe enfoncement profondeur_d'enfoncement "
+     "indentacion penetracion profundidad_de_indentacion indentazione penetrazione "
+     "indentacao penetracao wglebienie glebokosc_wnikania girinti batma_derinligi "
+     "indringdiepte intrangningsdjup 压入深度 押込み深さ 押し込み深さ 압입깊이 "},
     {"time",
-     " test_time elapsed_time zeit prufzeit temps temps_d'essai tiempo "
-     "tiempo_de_ensayo tempo tempo_di_prova 时间 "}};
+     " test_time elapsed_time total_time running_time timestamp "
+     "zeit prufzeit pruefzeit testzeit messzeit temps temps_d'essai "
+     "tiempo tiempo_de_ensayo tempo tempo_di_prova tempo_de_ensaio czas czas_badania "
+     "zaman sure test_suresi tijd tid 时间 试验时间 時間 経過時間 시간 "}};
 
 /// Small letters without accents, of which titles of several languages are made.
 std::string folded(string_view name) {
   constexpr std::pair<string_view, string_view> letters[] = {
-      {"ÀÁÂÄàáâä", "a"}, {"ÈÉÊËèéêë", "e"}, {"ÌÍÎÏìíîï", "i"}, {"ÒÓÔÖòóôö", "o"},
-      {"ÙÚÛÜùúûü", "u"}, {"Ññ", "n"},       {"Çç", "c"}};
+      {"ÀÁÂÃÄÅàáâãäåĄą", "a"}, {"ÈÉÊËèéêëĘęĚě", "e"}, {"ÌÍÎÏìíîïİı", "i"}, {"ÒÓÔÕÖòóôõöŐő", "o"},
+      {"ÙÚÛÜùúûüŮůŰű", "u"},   {"ÑñŃńŇň", "n"},       {"ÇçĆćČč", "c"},     {"Łł", "l"},
+      {"ŚśŞşŠš", "s"},         {"ŹźŻżŽž", "z"},       {"Ğğ", "g"},         {"Řř", "r"}};
   std::string text;
   while (!name.empty()) {
     std::size_t length = 1;
@@ -79,15 +100,24 @@ std::size_t place_of(const std::vector<TableTitle>& titles, string_view quantity
 
 }  // namespace
 
-const ColumnWish* CurveColumns::wish(string_view quantity) const {
-  const auto found = std::ranges::find(source_.columns, quantity, &ColumnWish::quantity);
+bool names_a_length(const TableTitle& title) {
+  constexpr string_view or_a_strain =
+      " extension compressive_extension compression tensile_extension deflection verformung "
+      "allongement allongement_standard alargamiento allungamento extensao alongamento wydluzenie "
+      "uzama verlenging forlangning 变形 伸长 伸び ";
+  return is_called(title, "position") &&
+         or_a_strain.find(' ' + folded(title.name) + ' ') == string_view::npos;
+}
+
+const DescribedColumn* CurveColumns::wish(string_view quantity) const {
+  const auto found = std::ranges::find(source_.columns, quantity, &DescribedColumn::quantity);
   return found == source_.columns.end() ? nullptr : &*found;
 }
 
 std::optional<std::size_t> CurveColumns::find(const TextTable& table, string_view name) {
   const auto& titles = table.titles;
   if (!source_.columns.empty()) {
-    const ColumnWish* own = wish(name);
+    const DescribedColumn* own = wish(name);
     if (own == nullptr) return {};
     return table.needed[std::size_t(own - source_.columns.data())];
   }
@@ -111,35 +141,32 @@ std::optional<std::size_t> CurveColumns::find(const TextTable& table, string_vie
 }
 
 CurveColumn CurveColumns::column(const TextTable& table, std::size_t index,
-                                 const Quantity& quantity) {
+                                 const Quantity& quantity, std::vector<std::string>& notes) {
   const TableTitle& title = table.titles[index];
   const std::string name(quantity.name), si(quantity.unit);
-  const ColumnWish* own = wish(quantity.name);
-  const bool told = own != nullptr && !own->unit.empty();
-  CurveColumn result{index, title.written, told ? own->unit : title.unit.value_or(""), 1.0,
-                     si == "s"};
+  const DescribedColumn* own = wish(quantity.name);
+  CurveColumn result{index, title.written, "", 1.0, si == "s"};
+  if (own != nullptr) result.zero = own->zero;
   const std::string remedy = "name the column for instance '" + name + " [" + si + "]'";
+  const bool told = own != nullptr && !own->unit.empty();
   const bool clock =
-      result.is_clock && !table.rows.empty() && result.unit != "s" &&
+      result.is_clock && !told && !table.rows.empty() &&
       (!title.unit || title.unit->find(':') != std::string::npos || title.unit->empty());
-  if (clock && !told) {
+  if (clock) {
     result.unit = "s";  // as h:min:s it was read
-  } else if (!told && !title.unit) {
-    problems_.add(table.header_line, title.written, "",
-                  "the unit is missing: it stands in brackets at the end", remedy);
-  } else if (si == "1") {
-    if (result.unit != "1")
-      problems_.add(table.header_line, title.written, "",
-                    "a number without dimension is marked [1]",
-                    remedy + " (divide percents by 100)");
-  } else {
-    try {
-      result.factor = parse_quantity("1 " + result.unit, si, si);
-    } catch (const UnitError& error) {
-      problems_.add(table.header_line, title.written, "", error.rule, remedy);
-    }
+    return result;
   }
-  if (own != nullptr) result.factor *= own->sign;
+  const DescribedColumn undescribed{name, title.written, ""};
+  if (const auto unit = unit_of(own != nullptr ? own : &undescribed, title, si, table.header_line,
+                                remedy, problems_, notes)) {
+    result.unit = unit->unit;
+    result.factor = unit->factor;
+  } else if (!title.unit || title.unit->empty() || si == "1") {
+    problems_.add(table.header_line, title.written, "",
+                  si == "1" ? "a number without dimension is marked [1] or [%]"
+                            : "the unit is missing: it stands in brackets at the end",
+                  remedy);
+  }
   return result;
 }
 
@@ -232,7 +259,7 @@ TextTables CurveColumns::tables(string_view text) {
   TableLayout layout = source_.layout;
   if (!source_.columns.empty()) {
     std::vector<std::string> columns;
-    for (const ColumnWish& each : source_.columns) columns.push_back(each.column);
+    for (const DescribedColumn& each : source_.columns) columns.push_back(each.column);
     DescribedColumns choose(columns);
     if (choose.all_numbered()) layout.has_names = false;
     TextTables found = tables_in(text, layout, std::ref(choose), problems_);

@@ -41,8 +41,9 @@ class CurveReader {
   std::optional<double> read_cell(const CurveColumn& column, std::size_t row);
   bool read_sigma(CurveRow& row, std::size_t place);
   void keep(const CurveRow& row, std::size_t place);
-  void check_signs();
+  void check_start();
   void check_direction();
+  std::string described(const std::string& of_x, const std::string& of_y) const;
 
   FileProblems problems_;
   const CurveSource& source_;
@@ -88,9 +89,12 @@ void CurveReader::choose_pair() {
     const auto x = columns_.find(*table_, pair.x.name), y = columns_.find(*table_, pair.y.name);
     if (!x || !y) continue;
     quantities_ = pair;
-    x_ = columns_.column(*table_, *x, pair.x);
-    y_ = columns_.column(*table_, *y, pair.y);
-    result_.x_quantity = pair.x.name;
+    x_ = columns_.column(*table_, *x, pair.x, result_.notes);
+    y_ = columns_.column(*table_, *y, pair.y, result_.notes);
+    // An indentation whose zero is sought is a travel.
+    if (pair == measured::press && x_.zero.by == ColumnZero::By::fit)
+      quantities_ = measured::travel;
+    result_.x_quantity = quantities_.x.name;
     result_.y_quantity = pair.y.name;
     return;
   }
@@ -105,8 +109,8 @@ void CurveReader::choose_sigma() {
   own_error_ = !index && quantities_.y.name == "force" && source_.columns.empty() && !of_lattice;
   if (own_error_) index = columns_.find(*table_, "force_error");
   if (index)
-    sigma_ = columns_.column(*table_, *index,
-                             {own_error_ ? "force_error" : "sigma", quantities_.y.unit});
+    sigma_ = columns_.column(
+        *table_, *index, {own_error_ ? "force_error" : "sigma", quantities_.y.unit}, result_.notes);
 }
 
 void CurveReader::note_unused() {
@@ -125,7 +129,8 @@ std::optional<double> CurveReader::read_cell(const CurveColumn& column, std::siz
   if (value && std::isfinite(*value)) {
     const double si = column.si(*value);
     const double size = std::abs(si);
-    if (si == 0.0 ? *value == 0.0 : size >= 1.0 / largest && size <= largest) return si;
+    if (si == 0.0 ? *value == column.taken_off : size >= 1.0 / largest && size <= largest)
+      return si;
   }
   const bool comma = cell.find(',') != cell.npos;
   problems_.add(table_->lines[row], column.title, shown(cell),
@@ -169,15 +174,16 @@ void CurveReader::read_row(std::size_t place) {
 void CurveReader::keep(const CurveRow& row, std::size_t place) {
   if (row.x > 0.0 || is_travel()) {
     rows_.push_back(row);
-  } else if (quantities_.x.name == "stretch" || quantities_.x.name == "frequency") {
-    problems_.add(row.line, x_.title, shown(table_->rows[place][x_.index]),
-                  std::string(quantities_.x.name) + " is positive", "correct or delete the row");
+  } else if (quantities_.x.name == "frequency") {
+    problems_.add(row.line, x_.title, shown(table_->rows[place][x_.index]), "frequency is positive",
+                  "correct or delete the row");
   } else {
     ++before_start_;
   }
 }
 
-void CurveReader::check_signs() {
+/// Rows before the start do not count, and some must be left.
+void CurveReader::check_start() {
   if (before_start_ > 0)
     result_.notes.push_back(fmt::format("{} rows with {} <= 0, before the start, are left out",
                                         before_start_, quantities_.x.name));
@@ -189,41 +195,56 @@ void CurveReader::check_signs() {
                       ? "indentation is positive when pressed: change its sign, or write the data"
                       : "write the data");
   }
+}
+
+/// Forces are positive in compression, and positions grow as the finger is pressed: forces are
+/// larger at larger ones, on the way back, too. What has to be turned about, or whose zero is to be
+/// taken off, is told with the lines to write.
+void CurveReader::check_direction() {
   if (quantities_.y.name != "force" || rows_.empty()) return;
-  double sum = 0.0;
-  for (const CurveRow& row : rows_) sum += row.y;
+  double mean_x = 0.0, mean_y = 0.0, together = 0.0;
+  for (const CurveRow& row : rows_)
+    mean_x += row.x / double(rows_.size()), mean_y += row.y / double(rows_.size());
+  for (const CurveRow& row : rows_) together += (row.x - mean_x) * (row.y - mean_y);
+  const bool travel = is_travel(), sought = y_.zero.by == ColumnZero::By::fit;
+  const bool rises = !travel || rows_.size() < 2 || !(together < 0.0);
+  const bool pulls = !(mean_y > 0.0) && !sought && !(travel && rises && zero_shows(rows_));
+  const std::string sum = fmt::format("mean of {} rows {:.3g} N", rows_.size(), mean_y);
+  const auto turned = [&](const char* quantity) {
+    const DescribedColumn* own = columns_.wish(quantity);
+    return fmt::format(", sign = {}", own == nullptr ? -1 : -int(own->sign));
+  };
+  if (pulls && travel && rises)
+    problems_.add(0, y_.title, sum,
+                  "forces are positive in compression; these rise with the "
+                  "position as a press does, from below zero",
+                  described("", ", zero = \"first row\""));
+  else if (pulls)
+    problems_.add(0, y_.title, sum, "forces are positive in compression",
+                  "change their sign: " + described("", turned("force")));
+  else if (!rises)
+    problems_.add(0, x_.title, "",
+                  "falls while the force grows, but a position grows as the finger is pressed",
+                  "turn it round: " + described(turned("position"), ""));
   const auto negative =
       std::ranges::count_if(rows_, [](const CurveRow& row) { return row.y < 0.0; });
-  if (!(sum > 0.0))
-    problems_.add(0, y_.title, fmt::format("sum of {} rows {:.3g} N", rows_.size(), sum),
-                  "forces are positive in compression",
-                  "change their sign, or say it: force = {column = ..., sign = -1}");
-  else if (negative > 0)
+  if (!pulls && !sought && negative > 0)
     result_.notes.push_back(
         fmt::format("{} of {} forces are negative (adhesion, drift or noise) and count as they are",
                     negative, rows_.size()));
 }
 
-/// Positions grow as the finger is pressed: forces are larger at larger ones, on the way back, too.
-void CurveReader::check_direction() {
-  double mean_x = 0.0, mean_y = 0.0, together = 0.0;
-  for (const CurveRow& row : rows_)
-    mean_x += row.x / double(rows_.size()), mean_y += row.y / double(rows_.size());
-  for (const CurveRow& row : rows_) together += (row.x - mean_x) * (row.y - mean_y);
-  if (!is_travel() || !(together < 0.0)) return;
-  const ColumnWish* own = columns_.wish("position");
-  const std::string file = source_.path.filename().string();
-  const auto described = [](const char* quantity, const CurveColumn& column, const char* sign) {
-    return fmt::format("{} = {{column = '{}'{}}}\n", quantity, column.title, sign);
+/// How to say in a description what has to be added to x and y.
+std::string CurveReader::described(const std::string& of_x, const std::string& of_y) const {
+  const auto line = [&](const Quantity& quantity, const CurveColumn& column,
+                        const std::string& more) {
+    return fmt::format("{} = {{column = '{}'{}}}\n", quantity.name, column.title, more);
   };
-  problems_.add(
-      0, x_.title, "", "falls while the force grows, but a position grows as the finger is pressed",
-      own != nullptr
-          ? fmt::format("turn it round: position = {{column = ..., sign = {}}}", -own->sign)
-          : "turn it round: name a file press.toml in calibration.data in place of " + file +
-                ", and write into it\n[[press]]\npath = '" + file + "'\n" +
-                described("position", x_, ", sign = -1") + described("force", y_, "") +
-                "(studies/manual/your_press.md)");
+  const std::string x = line(quantities_.x, x_, of_x), y = line(quantities_.y, y_, of_y);
+  if (!source_.columns.empty()) return "write " + (of_x.empty() ? y : x);
+  return "name a file press.toml in calibration.data in place of " +
+         source_.path.filename().string() + ", and write into it\n[[press]]\npath = '" +
+         source_.path.filename().string() + "'\n" + x + y + "(studies/manual/your_press.md)";
 }
 
 MeasuredFile CurveReader::read_table(const TextTable& table) {
@@ -236,7 +257,7 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
   problems_.throw_if_any();
   choose_sigma();
   if (const auto time = columns_.find(*table_, "time"); time && (is_travel() || wants_time_))
-    time_ = columns_.column(*table_, *time, {"time", "s"});
+    time_ = columns_.column(*table_, *time, {"time", "s"}, result_.notes);
   problems_.throw_if_any();
   note_unused();
   std::size_t first = 0, end = table.rows.size();
@@ -248,6 +269,10 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
     problems_.throw_if_any();
     first = std::size_t((*chosen)[0]) - 1, end = std::size_t((*chosen)[1]);
   }
+  for (CurveColumn* column : {&x_, &y_})
+    if (first < end)
+      column->taken_off = zero_in(column->zero, table.number(first, column->index).value_or(0.0),
+                                  {column->unit, column->factor});
   for (std::size_t row = first; row < end; ++row) read_row(row);
   problems_.throw_if_any();
   if (without_error_ > 0) {
@@ -257,18 +282,29 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
                     "rows",
                     sigma_->title, without_error_, data_rows_));
   }
-  check_signs();
+  check_start();
+  problems_.throw_if_any();
+  const Abscissa abscissa{result_.x_quantity, x_.unit, std::abs(x_.factor), is_travel()};
+  const bool is_press = is_travel() || quantities_ == measured::press;
+  const bool in_time = wants_time_ && time_;
+  if (is_press) leave_out_odd(rows_, abscissa, true, result_.notes);
+  if (is_press && !in_time) put_in_order(rows_, abscissa, result_.notes);
   check_direction();
   problems_.throw_if_any();
   calibration::LoadingHistory course;
   course.rows = rows_.size();
   const double begin = rows_.front().time;
-  const bool in_time = wants_time_ && time_;
   if (is_travel() || in_time)
-    rows_ =
-        loading(std::move(rows_), course, result_.notes, in_time ? Holds::kept : Holds::left_out);
+    rows_ = loading(std::move(rows_), abscissa, course, result_.notes,
+                    in_time ? Holds::kept : Holds::left_out);
+  if (is_press && !in_time) leave_out_clipped(rows_, abscissa, result_.notes);
   if (const double noise = noise_of(rows_); noise > 0.0) course.noise = noise;
-  const Abscissa abscissa{result_.x_quantity, x_.unit, std::abs(x_.factor), is_travel()};
+  const bool told = y_.zero.by != ColumnZero::By::nothing;
+  const bool shows = is_travel() && !told && zero_shows(rows_);
+  if (shows)
+    result_.notes.emplace_back(
+        "the rows before touch tell a force that is not zero: the load cell's zero is fitted, "
+        "unless calibration.rig tells it");
   if (in_time) {
     TimedCurve timed = curve_in_time(rows_, abscissa, problems_, result_.notes);
     result_.curve = std::move(timed.curve);
@@ -279,6 +315,7 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
   // A clock's zero is years away: a drift over it would be told from the force's zero by nothing.
   for (double& time : result_.curve.time) time -= begin;
   result_.curve.is_travel = is_travel();
+  result_.curve.zero_is_sought = shows || y_.zero.by == ColumnZero::By::fit;
   result_.x_title = x_.title, result_.x_unit = x_.unit;
   if (!result_.curve.x.empty())
     course.rows_per_value = double(rows_.size()) / double(result_.curve.x.size());

@@ -42,8 +42,10 @@ struct MeasuredFile {
 /// - `sigma`, in a unit of y, is the standard deviation of every y. Without it a `force_error`,
 ///   but of a lattice (`boundary.csv` stands beside it), serves where it is known and positive in
 ///   every row. Further columns are ignored with a note.
-/// - Rows with indentation, time or shear <= 0 lie before the start and are left out with a note;
-///   stretch and frequency must be positive.
+/// - Rows with indentation or time <= 0 lie before the start and are left out with a note; a
+///   frequency must be positive.
+/// - Of presses isolated odd rows, and a load cell at its limit, are left out with a note, and rows
+///   in reverse order are turned about (curve_rows.h).
 /// - A position may have any sign and stand still or tremble: then its rows are averaged as below.
 ///   Rows after the largest one, a hold or an unloading, are left out with a note that tells the
 ///   loop's share of the work. A column time goes along,

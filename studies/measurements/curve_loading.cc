@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/files/shown_units.h"
+#include "calibration/files/words.h"
 #include "studies/measurements/curve_rows.h"
 
 namespace fingertip::studies::inline measurements {
@@ -122,8 +122,8 @@ void tell_hold(const std::vector<CurveRow>& rows, const Hold& hold, Holds use,
   const bool pressed = start > 0.05 * largest_force(rows);
   if (pressed) {
     const double fall = 1.0 - end / start;
-    text += fmt::format("; in it the force {} by {:.2g} %", fall < 0.0 ? "rises" : "falls",
-                        100.0 * std::abs(fall));
+    text += fmt::format("; in it the force {} by {}", fall < 0.0 ? "rises" : "falls",
+                        calibration::percent(std::abs(fall)));
     if (std::isnan(course.relaxation) || time >= course.hold_time) {
       course.relaxation = fall, course.hold_time = time;
       if (time > 0.0) keep_hold(rows, begin, hold.end, course);
@@ -133,13 +133,13 @@ void tell_hold(const std::vector<CurveRow>& rows, const Hold& hold, Holds use,
   notes.push_back(text);
 }
 
-std::string loop_words(const calibration::LoadingHistory& course) {
-  const double share = 100.0 * course.loop;
-  if (share >= 0.0) return fmt::format("the loop takes {:.2g} % of the work of the loading", share);
+std::string loop_words(const calibration::LoadingHistory& course, const Abscissa& abscissa) {
+  if (course.loop >= 0.0)
+    return "the loop takes " + calibration::percent(course.loop) + " of the work of the loading";
   return fmt::format(
-      "the way back lies above the loading, by {:.2g} % of its work: not the rubber, which gives "
+      "the way back lies above the loading, by {} of its work: not the rubber, which gives "
       "back no more than it took, but {} of play or lag of the machine's travel",
-      -share, shown_units().length.text(course.play));
+      calibration::percent(-course.loop), abscissa.shown(course.play));
 }
 
 /// The unloading, thinned to what a figure shows.
@@ -152,10 +152,37 @@ void keep_way_back(const std::vector<CurveRow>& rows, std::size_t first,
   }
 }
 
+/// What goes back by more than noise, a twentieth of all, and returns to where it has been. Where
+/// most rows do, they are no cycles but in no order, which the reader is told as it stands.
+void leave_out_cycles(std::vector<CurveRow>& rows, double width, const Abscissa& abscissa,
+                      std::vector<std::string>& notes) {
+  constexpr double least_left = 0.2, least_way = 10.0;  // of `width`
+  std::vector<CurveRow> first_time;
+  double highest = rows.front().x;
+  std::size_t turn = 1;  // rows up to the highest one
+  bool away = false;
+  for (const CurveRow& row : rows) {
+    const bool goes_back = row.x < highest - least_way * width;
+    if (goes_back && !away) first_time.resize(turn);
+    away = goes_back || (away && row.x <= highest);
+    if (away) continue;
+    first_time.push_back(row);
+    if (row.x > highest) highest = row.x, turn = first_time.size();
+  }
+  const std::size_t left_out = rows.size() - first_time.size();
+  if (left_out == 0 || double(first_time.size()) < least_left * double(rows.size())) return;
+  notes.push_back(
+      fmt::format("of cycles the first loading to every {} is fitted: {} rows of ways "
+                  "back and returns are not",
+                  abscissa.name, left_out));
+  rows = std::move(first_time);
+}
+
 }  // namespace
 
-std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::LoadingHistory& course,
-                              std::vector<std::string>& notes, Holds use) {
+std::vector<CurveRow> loading(std::vector<CurveRow> rows, const Abscissa& abscissa,
+                              calibration::LoadingHistory& course, std::vector<std::string>& notes,
+                              Holds use) {
   if (rows.empty()) return rows;
   // The first row that deep: the noise of a hold must not choose the turn.
   const auto [least, largest] = std::ranges::minmax_element(rows, {}, &CurveRow::x);
@@ -173,7 +200,11 @@ std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::LoadingHi
   else if (use == Holds::left_out && count < rows.size() && back == rows.end())
     notes.emplace_back("rows after the largest position, a hold, are left out");
   if (back != rows.end()) {
-    const double around = work(rows);
+    // Of cycles the first.
+    auto lowest = back, next = back;
+    for (; next != rows.end() && next->x <= lowest->x + 2.0 * width; ++next)
+      if (next->x < lowest->x) lowest = next;
+    const double around = work({rows.begin(), lowest + 1});
     const std::vector<CurveRow> up(rows.begin(), rows.begin() + std::ptrdiff_t(count));
     const double done = work(up);
     keep_way_back(rows, at_end.end, course);
@@ -183,27 +214,28 @@ std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::LoadingHi
       if (around < 0.0) course.play = -around / (largest_force(rows) - rows.front().y);
       notes.push_back(
           fmt::format("the loading, {} rows, is fitted and the unloading, {} rows, is not; {}",
-                      count, rows.size() - at_end.end, loop_words(course)));
+                      count, rows.size() - at_end.end, loop_words(course, abscissa)));
     }
   }
   const std::vector<Hold> holds =
       holds_in({rows.begin(), rows.begin() + std::ptrdiff_t(count)}, width);
   for (const Hold& hold : holds) tell_hold(rows, hold, use, course, notes);
-  if (use == Holds::kept) {
-    rows.resize(at_end.end);
-    int number = 0;
-    const auto mark = [&](const Hold& hold) {
-      ++number;
-      for (std::size_t i = hold.first; i < hold.end; ++i) rows[i].hold = number;
-    };
-    std::ranges::for_each(holds, mark);
-    mark(at_end);
+  if (use == Holds::left_out) {
+    rows.resize(count);
+    for (auto hold = holds.rbegin(); hold != holds.rend(); ++hold)
+      rows.erase(rows.begin() + std::ptrdiff_t(hold->first),
+                 rows.begin() + std::ptrdiff_t(hold->end));
+    leave_out_cycles(rows, width, abscissa, notes);
     return rows;
   }
-  rows.resize(count);
-  for (auto hold = holds.rbegin(); hold != holds.rend(); ++hold)
-    rows.erase(rows.begin() + std::ptrdiff_t(hold->first),
-               rows.begin() + std::ptrdiff_t(hold->end));
+  rows.resize(at_end.end);
+  int number = 0;
+  const auto mark = [&](const Hold& hold) {
+    ++number;
+    for (std::size_t i = hold.first; i < hold.end; ++i) rows[i].hold = number;
+  };
+  std::ranges::for_each(holds, mark);
+  mark(at_end);
   return rows;
 }
 

@@ -88,8 +88,8 @@ std::pair<calibration::Curve, std::vector<Bin>> means(const std::vector<CurveRow
 /// Whether the means of some thousand blocks of successive rows step back by at most `width`, and
 /// single rows by twice that: of a million rows with noise some always lie far off.
 bool climbs(const std::vector<CurveRow>& rows, double width, const Abscissa& abscissa,
-            FileProblems& problems) {
-  const std::size_t size = std::max<std::size_t>(1, rows.size() / (5 * max_rows));
+            FileProblems& problems, std::size_t many = max_rows) {
+  const std::size_t size = std::max<std::size_t>(1, rows.size() / (5 * many));
   CurveRow highest;  // x: the largest mean; line: where its block begins
   highest.x = -std::numeric_limits<double>::infinity();
   for (std::size_t first = 0; first < rows.size(); first += size) {
@@ -104,7 +104,7 @@ bool climbs(const std::vector<CurveRow>& rows, double width, const Abscissa& abs
           rows[i].line, abscissa.name, abscissa.shown(rows[i].x),
           fmt::format("must increase, up to noise of {} (1/{} of its range), and has "
                       "already been {} at line {}",
-                      abscissa.shown(width), max_rows, abscissa.shown(highest.x), highest.line),
+                      abscissa.shown(width), many, abscissa.shown(highest.x), highest.line),
           how_to_split(abscissa));
       return false;
     }
@@ -113,19 +113,26 @@ bool climbs(const std::vector<CurveRow>& rows, double width, const Abscissa& abs
 }
 
 calibration::Curve averaged(const std::vector<CurveRow>& rows, const Abscissa& abscissa,
-                            FileProblems& problems, std::vector<std::string>& notes) {
+                            FileProblems& problems, std::vector<std::string>& notes,
+                            std::size_t many) {
   const auto [least, largest] = std::ranges::minmax_element(rows, {}, &CurveRow::x);
   const double range = largest->x - least->x;
-  const double width = range / double(max_rows);
   if (!(range > min_range * std::abs(largest->x))) {
     problems.add(least->line, abscissa.name, abscissa.shown(least->x), "is the same in every row",
                  "write rows at different values");
     return {};
   }
-  if (!climbs(rows, width, abscissa, problems)) return {};
+  // An encoder may tremble by more than a bin: fewer are wider.
+  constexpr std::size_t fewest_bins = 25;
+  if (abscissa.is_travel)
+    for (FileProblems none = problems;
+         many / 2 >= fewest_bins && !climbs(rows, range / double(many), abscissa, none, many);)
+      many /= 2;
+  const double width = range / double(many);
+  if (!climbs(rows, width, abscissa, problems, many)) return {};
   std::vector<std::size_t> bin;
   for (const CurveRow& row : rows)
-    bin.push_back(std::min(std::size_t((row.x - least->x) / width), max_rows - 1));
+    bin.push_back(std::min(std::size_t((row.x - least->x) / width), many - 1));
   const auto [curve, bins] = means(rows, bin, has_time(rows));
   const auto [fewest, most] = std::ranges::minmax_element(bins, {}, &Bin::rows);
   notes.push_back(
@@ -151,14 +158,15 @@ double noise_of(const std::vector<CurveRow>& rows) {
 }
 
 std::string Abscissa::shown(double si) const {
-  return fmt::format("{:.6g} {}", si / factor, unit);
+  return fmt::format("{:.6g}{}{}", si / factor, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
 }
 
 calibration::Curve curve_of(const std::vector<CurveRow>& rows, const Abscissa& abscissa,
-                            FileProblems& problems, std::vector<std::string>& notes) {
+                            FileProblems& problems, std::vector<std::string>& notes,
+                            std::size_t many) {
   const auto falls = [](const CurveRow& a, const CurveRow& b) { return b.x <= a.x; };
   const bool trembles = abscissa.is_travel && std::ranges::adjacent_find(rows, falls) != rows.end();
-  if (rows.size() > max_rows || trembles) return averaged(rows, abscissa, problems, notes);
+  if (rows.size() > many || trembles) return averaged(rows, abscissa, problems, notes, many);
   calibration::Curve curve;
   if (!increase(rows, abscissa, problems)) return curve;
   for (const CurveRow& row : rows) {

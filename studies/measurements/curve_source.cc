@@ -5,8 +5,6 @@
 #include <set>
 
 #include "calibration/files/toml_file.h"
-#include "studies/config/text/units.h"
-#include "studies/measurements/material_test_table.h"
 
 namespace fingertip::studies::inline measurements {
 
@@ -18,25 +16,21 @@ using std::string_view;
 /// A column's name and the SI unit of what stands in it.
 struct KnownColumn {
   const char *quantity, *unit, *example;
+  bool has_zero = true;
+
+  std::set<string_view> further() const {
+    return has_zero ? std::set<string_view>{"zero"} : std::set<string_view>();
+  }
 };
 constexpr KnownColumn known_columns[] = {{"position", "m", "mm"},
                                          {"indentation", "m", "mm"},
                                          {"force", "N", "N"},
-                                         {"time", "s", "s"},
-                                         {"sigma", "N", "N"}};
+                                         {"time", "s", "s", false},
+                                         {"sigma", "N", "N", false}};
 
 const std::set<string_view> shared_press_keys = {
     "condition", "block",       "separator", "decimal", "skip",  "header", "rows",
     "force",     "indentation", "position",  "time",    "sigma", "finger"};
-
-ColumnWish wish(const TestTable& table, const KnownColumn& known) {
-  table.check_keys({"column", "unit", "sign"});
-  ColumnWish found{known.quantity, table.column(), table.text("unit").value_or(""), 1.0};
-  if (!found.unit.empty())
-    table.number_of("unit", "1 " + found.unit, known.unit, std::string("1 ") + known.example);
-  found.sign = sign_of(table);
-  return found;
-}
 
 void add_press(const TestTable& press, std::vector<CurveSource>& sources) {
   CurveSource source;
@@ -49,7 +43,8 @@ void add_press(const TestTable& press, std::vector<CurveSource>& sources) {
     if (known.quantity == string_view("sigma") && press.is_text(known.quantity))
       source.sigma = *press.quantity(known.quantity, known.unit, "0.01 N");
     else if (const auto table = press.table(known.quantity))
-      source.columns.push_back(wish(*table, known));
+      source.columns.push_back(
+          described_column(*table, known.quantity, known.unit, known.example, known.further()));
   if (press.has("position") && press.has("indentation"))
     press.refuse("indentation", "", "beside position", "leave one of the two out");
   if (source.columns.empty() && !source.layout.has_names)

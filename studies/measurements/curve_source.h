@@ -8,26 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "studies/measurements/text_table.h"
+#include "studies/measurements/description.h"
 
 namespace fingertip::studies::inline measurements {
-
-/// A column of a file, as a description names it.
-struct ColumnWish {
-  std::string quantity;  ///< "position", "indentation", "force", "time", "sigma"
-  std::string column;    ///< a name of the header, or "#3": the third
-  std::string unit;      ///< empty: the file's own
-  double sign = 1.0;
-
-  bool operator==(const ColumnWish&) const = default;
-};
 
 /// A file and what is known of it.
 struct CurveSource {
   std::filesystem::path path = {};
   std::string name = {};  ///< of the curve; empty: the file's without extension
   TableLayout layout = {};
-  std::vector<ColumnWish> columns = {};  ///< none: the file names them itself
+  std::vector<DescribedColumn> columns = {};  ///< none: the file names them itself
   std::optional<std::array<double, 2>> rows =
       {};                      ///< the first and last of a table that count, from 1
   std::size_t block = 0;       ///< the table of the file that counts, from 1; 0: each of them
@@ -44,12 +34,12 @@ struct CurveSource {
 ///   [[press]] path (or a list of paths: repeats), name, condition, block (a number from 1),
 ///             separator ("comma", "semicolon", "tab", "whitespace"), decimal ("point", "comma"),
 ///             skip (lines), header (true, false), rows ([first, last]),
-///             position or indentation, force, time, sigma = {column, unit, sign},
-///             or sigma = "0.01 N", the same of every row;
+///             position or indentation, force = {column, unit, scale, sign, zero},
+///             time, sigma = {column, unit, scale, sign}, or sigma = "0.01 N", of every row;
 ///             finger ("soft", "rigid": a blank in its place)
 ///
-/// A column is a name of the header or a number from 1; `sign` is 1 or -1. Separator and decimals
-/// are found, units read from the file where they are not said. Paths are relative to the TOML
+/// Columns: DescribedColumn. Separator and decimals are found, units read from the file where they
+/// are not said. Paths are relative to the TOML
 /// file. Throws InvalidInput naming file, line, key, value, rule and remedy.
 std::vector<CurveSource> curve_sources(const std::filesystem::path& entry);
 

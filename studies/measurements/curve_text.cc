@@ -43,6 +43,7 @@ void FileProblems::throw_if_any() const {
 std::string shown(string_view text) {
   constexpr std::size_t most = 40;
   std::string result(text.substr(0, most));
+  std::ranges::replace(result, '\t', ' ');
   for (char& c : result)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   return result + (text.size() > most ? "..." : "");
@@ -67,6 +68,20 @@ bool is_chinese(string_view bytes) {
     characters += std::exchange(run, 0) / 2;
   }
   return run % 2 == 0 && characters + run / 2 >= 2;
+}
+
+/// Kana and kanji of Shift JIS: pairs that begin with bytes which are no letters of Latin-1; of
+/// Windows' quotes and dashes there the second byte is no such one.
+bool is_japanese(string_view bytes) {
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i + 1 < bytes.size(); ++i) {
+    const auto first = static_cast<unsigned char>(bytes[i]),
+               second = static_cast<unsigned char>(bytes[i + 1]);
+    if (first < 0x81 || first > 0x9F) continue;
+    if (second >= 0x80) ++pairs;
+    ++i;
+  }
+  return pairs >= 2;
 }
 
 /// None where the text breaks the rules of its encoding.
@@ -94,7 +109,8 @@ std::optional<std::string> in_utf8(string_view bytes) {
   else if (bytes.starts_with("\xEF\xBB\xBF"))
     return in_utf8(bytes.substr(3));
   else if (text = converted(bytes, "UTF-8"); !text) {
-    if (is_chinese(bytes)) text = converted(bytes, "GB18030");
+    if (is_japanese(bytes)) text = converted(bytes, "CP932");
+    if (!text && is_chinese(bytes)) text = converted(bytes, "GB18030");
     // Of machines that write the micro sign and umlauts.
     if (!text) text = converted(bytes, "ISO-8859-1");
   }

@@ -34,9 +34,9 @@ class FileProblems {
 /// What a message may show of a file's text: printable and at most 40 characters.
 std::string shown(std::string_view text);
 
-/// `bytes` in UTF-8 without byte order mark: UTF-16 with one, GB 18030 where all that is no ASCII
-/// are pairs of its bytes, and Latin-1, which is what else is no UTF-8, are converted; none for
-/// text with zero characters or halves of them.
+/// `bytes` in UTF-8 without byte order mark. Converted are UTF-16 with one, Shift JIS where pairs
+/// of bytes are no other's, GB 18030 where all that is no ASCII are pairs of its bytes, and
+/// Latin-1, which is what else is no UTF-8; none for text with zero characters or halves of them.
 std::optional<std::string> in_utf8(std::string_view bytes);
 
 struct FileText {

@@ -10,10 +10,12 @@
 #include <utility>
 
 #include "calibration/files/toml_file.h"
+#include "calibration/files/words.h"
 #include "calibration/material_tests/law_model.h"
 #include "calibration/material_tests/strain_grid.h"
 #include "meshes/base/errors.h"
 #include "studies/files/json_entry.h"
+#include "studies/measurements/curve_rows.h"
 #include "studies/measurements/material_test_table.h"
 #include "studies/measurements/timed_test.h"
 
@@ -24,6 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using calibration::CurveRow;
 using calibration::MaterialTest;
+using calibration::StrainCurve;
 using calibration::TestCourse;
 using calibration::TestKind;
 using meshes::InvalidInput;
@@ -31,8 +34,8 @@ using std::string_view;
 
 /// Points of a curve that is averaged, where nothing else is said.
 constexpr long usual_points = 200, max_points = 1000;
-/// Share of rows whose strain may step back.
-constexpr double noise_share = 0.1;
+/// No rubber is stretched further, or to less than one over it: Ecoflex 00-10 breaks at 9.
+constexpr double largest_stretch = 12.0;
 
 const std::set<string_view> shared_keys = {
     "use",   "kind",   "deformation", "separator", "skip",   "header",   "decimal", "rows",
@@ -54,8 +57,18 @@ class TestReader {
   std::vector<CurveRow> rows_of(const fs::path& path);
   void read_slow(const std::vector<fs::path>& paths);
   void read_in_time(const fs::path& path);
-  calibration::StrainCurve curve_of(const fs::path& path);
-  void convert(calibration::StrainCurve curve);
+  void to_si(const DescribedRows& read, std::vector<CurveRow>& rows) const;
+  StrainCurve curve_of(const fs::path& path);
+  void check_start(const fs::path& path, const std::vector<CurveRow>& rows, bool both) const;
+  void check_signs(const fs::path& path, const std::vector<CurveRow>& rows) const;
+  std::size_t take_off_rest(double rest, std::vector<CurveRow>& rows,
+                            std::vector<std::string>& told);
+  void read_zeros();
+  void doubt_stretches();
+  void convert(StrainCurve curve);
+  void note(const fs::path& path, const std::string& sentence) {
+    result_.notes.push_back(path.filename().string() + ": " + sentence);
+  }
   void keep_known_compression();
   void read_published();
 
@@ -66,7 +79,7 @@ class TestReader {
   std::optional<Plates> plates_;
   StrainColumn strain_;
   StressColumn stress_;
-  std::optional<StressColumn> sigma_;
+  std::optional<DescribedColumn> sigma_, time_;
 };
 
 /// A kind of deformation, or a course in time, which names that apart.
@@ -127,49 +140,157 @@ std::vector<CurveRow> TestReader::rows_of(const fs::path& path) {
   const FileText text = text_of(path);
   found_.source += (found_.source.empty() ? "" : ", ") + path.filename().string() + " (SHA-256 " +
                    text.sha256 + ")";
-  TestColumns columns{strain_.column, stress_.column, sigma_ ? sigma_->column : "", {}};
-  if (found_.course != TestCourse::slow) columns.time = test_.table("time")->column();
-  std::vector<CurveRow> rows = described_rows(text, path, layout_of(test_), columns, result_.notes);
-  const auto chosen = test_.pair("rows");
-  if (!chosen) return rows;
-  const auto [first, last] = *chosen;
-  if (!(first >= 1.0 && last <= double(rows.size())))
-    test_.refuse("rows", fmt::format("{} to {}", first, last),
-                 fmt::format("{} has {} rows of data", path.filename().string(), rows.size()),
-                 "count them from 1, without the header");
-  return {rows.begin() + std::ptrdiff_t(first) - 1, rows.begin() + std::ptrdiff_t(last)};
+  TestColumns columns{&strain_, &stress_, sigma_ ? &*sigma_ : nullptr, time_ ? &*time_ : nullptr};
+  DescribedRows read = described_rows(text, path, layout_of(test_), columns, result_.notes);
+  std::vector<CurveRow> rows = std::move(read.rows);
+  if (const auto chosen = test_.pair("rows")) {
+    const auto [first, last] = *chosen;
+    if (!(first >= 1.0 && last <= double(rows.size())))
+      test_.refuse("rows", fmt::format("{} to {}", first, last),
+                   fmt::format("{} has {} rows of data", path.filename().string(), rows.size()),
+                   "count them from 1, without the header");
+    rows = {rows.begin() + std::ptrdiff_t(first) - 1, rows.begin() + std::ptrdiff_t(last)};
+  }
+  const auto range = test_.pair("range");
+  std::erase_if(rows, [&](const CurveRow& row) {
+    return range && (row.x < (*range)[0] || row.x > (*range)[1]);
+  });
+  const auto has_gap = [](const CurveRow& row) {
+    return std::isnan(row.time + row.x + row.y + row.sigma);
+  };
+  if (const std::size_t empty = std::erase_if(rows, has_gap); empty > 0)
+    note(path, fmt::format("{} rows with empty cells were left out", empty));
+  if (rows.size() < 2)
+    test_.refuse("path", path.filename().string(), "fewer than two rows are left",
+                 "look at rows, range and the columns");
+  to_si(read, rows);
+  return rows;
 }
 
-calibration::StrainCurve TestReader::curve_of(const fs::path& path) {
-  calibration::StrainCurve curve = rows_of(path);
-  const std::size_t all = curve.size();
-  const calibration::CurveCleaning removed = clean(curve, test_.pair("range"));
-  if (curve.size() < 2)
-    test_.refuse("path", path.filename().string(), "fewer than two points are left",
-                 "look at rows, range and the columns");
-  if (double(removed.backward) > noise_share * double(all))
-    test_.refuse("path", path.filename().string(),
-                 fmt::format("the strain steps back in {} of {} rows: the curve turns back",
-                             removed.backward, all),
-                 "choose one branch by rows = [first, last]");
-  if (removed.backward + removed.empty > 0)
-    result_.notes.push_back(
-        fmt::format("{}: {} rows where the strain steps back and {} empty ones were left out",
-                    path.filename().string(), removed.backward, removed.empty));
-  return curve;
+/// Their zeros taken off, in SI; forces over the area.
+void TestReader::to_si(const DescribedRows& read, std::vector<CurveRow>& rows) const {
+  const double area = stress_.area.value_or(1.0),
+               x = zero_in(strain_.described.zero, rows.front().x, read.strain),
+               y = zero_in(stress_.described.zero, rows.front().y, read.stress);
+  for (CurveRow& row : rows) {
+    row.x = read.strain.factor * (row.x - x);
+    row.y = read.stress.factor * (row.y - y) / area;
+    row.sigma *= std::abs(read.sigma.factor) / area;
+    row.time *= read.time.factor;
+  }
+}
+
+/// Strains as distances from rest in the way in which the test goes, stresses as they grow with
+/// them: faults of rows are found as those of presses. `both`: of a test that goes both ways the
+/// strains stay.
+StrainCurve TestReader::curve_of(const fs::path& path) {
+  std::vector<CurveRow> rows = rows_of(path);
+  std::vector<std::string> told;
+  const Abscissa abscissa{"strain", strain_.si(), 1.0, true};
+  leave_out_odd(rows, abscissa, true, told);
+  const double rest = strain_.at_rest();
+  const auto [low, high] = std::ranges::minmax_element(rows, {}, &CurveRow::x);
+  const double below = rest - low->x, above = high->x - rest;
+  constexpr double one_sided = 0.1;
+  const bool both = std::min(below, above) > one_sided * std::max(below, above);
+  const double way = above >= below ? 1.0 : -1.0;
+  for (CurveRow& row : rows) row.x = way * (row.x - rest), row.y *= way;
+  if (!both) put_in_order(rows, abscissa, told);
+  if (both && rows.front().x > rows.back().x) std::ranges::reverse(rows);
+  check_start(path, rows, both);
+  // What a single row tells has its noise.
+  if (stress_.described.zero.by == ColumnZero::By::first_row)
+    found_.stress_zero_error = noise_of(rows);
+  check_signs(path, rows);
+  if (!both) {
+    const std::size_t at_rest = take_off_rest(0.0, rows, told);
+    if (at_rest > 0) rows.erase(rows.begin(), rows.begin() + std::ptrdiff_t(at_rest) - 1);
+    calibration::LoadingHistory course;
+    rows = loading(std::move(rows), abscissa, course, told);
+    leave_out_clipped(rows, abscissa, told);
+  }
+  FileProblems problems(path);
+  const auto points = std::size_t(test_.whole("points", usual_points, 2, max_points));
+  const calibration::Curve curve =
+      fingertip::studies::measurements::curve_of(rows, abscissa, problems, told, points);
+  problems.throw_if_any();
+  for (const std::string& sentence : told) note(path, sentence);
+  StrainCurve found;
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    found.push_back(
+        {rest + way * curve.x[i], way * curve.y[i], curve.sigma.empty() ? 0.0 : curve.sigma[i]});
+  return found;
+}
+
+/// A displacement counts from rest.
+void TestReader::check_start(const fs::path& path, const std::vector<CurveRow>& rows,
+                             bool both) const {
+  constexpr double far = 0.5;  // of the way
+  const auto [low, high] = std::ranges::minmax_element(rows, {}, &CurveRow::x);
+  const double nearest = std::min(std::abs(low->x), std::abs(high->x)), way = high->x - low->x;
+  const bool chosen = test_.has("rows") || test_.has("range") ||
+                      strain_.described.zero.by != ColumnZero::By::nothing;
+  if (strain_.measure != StrainMeasure::displacement || both || chosen || !(nearest > far * way))
+    return;
+  test_.refuse("strain", path.filename().string(),
+               fmt::format("its displacement begins {:.4g} mm from rest and goes on by {:.4g} mm",
+                           1e3 * nearest, 1e3 * way),
+               "where its zero is elsewhere, write zero = \"first row\" in strain, or the number "
+               "at rest");
+}
+
+/// Stress grows with strain from rest on.
+void TestReader::check_signs(const fs::path& path, const std::vector<CurveRow>& rows) const {
+  double work = 0.0;
+  for (const CurveRow& row : rows) work += row.x * row.y;
+  if (work > 0.0) return;
+  test_.refuse(
+      "stress", path.filename().string(),
+      "falls below zero where the strain grows from rest on, in the sense of this test: in "
+      "tension both are positive, in compression negative",
+      "turn one of them about: sign = -1 in stress or in strain");
+}
+
+/// Rows at the strain `rest`, before anything moves, tell the zero of the stress, unless it is
+/// described. How many there are.
+std::size_t TestReader::take_off_rest(double rest, std::vector<CurveRow>& rows,
+                                      std::vector<std::string>& told) {
+  constexpr double near = 0.02, matters = 0.002;
+  const auto found = rows_at_rest(rows);
+  const auto by = stress_.described.zero.by;
+  if (!found || (by != ColumnZero::By::nothing && by != ColumnZero::By::fit)) return 0;
+  double range = 0.0, most = 0.0;
+  for (const CurveRow& row : rows)
+    range = std::max(range, std::abs(row.x - rest)), most = std::max(most, std::abs(row.y));
+  if (std::abs(found->x - rest) > near * range) return 0;
+  for (CurveRow& row : rows) row.y -= found->y;
+  found_.stress_zero_known = true;
+  found_.stress_zero_sought = false;
+  found_.stress_zero_error = found->y_error;
+  if (std::abs(found->y) > matters * most)
+    told.push_back(
+        fmt::format("{} rows at rest tell the stress {:.4g} Pa, {} of the largest: "
+                    "it is taken off as the load cell's zero",
+                    found->count, found->y, calibration::percent(std::abs(found->y) / most)));
+  return found->count;
 }
 
 /// To stretch, shear or J, increasing.
-void TestReader::convert(calibration::StrainCurve curve) {
+void TestReader::convert(StrainCurve curve) {
   for (CurveRow& row : curve) row.x = strain_.deformation(found_.kind, row.x);
-  if (found_.kind == TestKind::simple_shear)
+  if (found_.kind == TestKind::simple_shear) {
     std::erase_if(curve, [](const CurveRow& row) { return row.x <= 0.0; });
+    if (curve.empty())
+      test_.refuse("strain", found_.name, "a shear is positive, and all of these are negative",
+                   "write sign = -1 in strain and in stress, or kind = \"uniaxial\" of a "
+                   "compression");
+  }
   std::ranges::stable_sort(curve, {}, &CurveRow::x);
   for (const CurveRow& row : curve) {
     if (!found_.deformation.empty() && row.x == found_.deformation.back()) continue;
     found_.deformation.push_back(row.x);
-    found_.stress.push_back(stress_.factor * row.y);
-    if (sigma_) found_.sigma.push_back(std::abs(sigma_->factor) * row.sigma);
+    found_.stress.push_back(row.y);
+    if (sigma_) found_.sigma.push_back(row.sigma);
   }
 }
 
@@ -189,13 +310,37 @@ void TestReader::keep_known_compression() {
 
 void TestReader::read_in_time(const fs::path& path) {
   const TestTable time = needed(test_, "time", "time = {column = 1, unit = \"s\"}");
-  time.check_keys({"column", "unit", "from"});
+  time_ = described_column(time, "time", "s", "s", {"from"});
   if (time.has("from") && !strain_.value)
     time.refuse("from", time.text("from").value_or(""), "the strain's column tells when it is held",
                 "leave it out");
   const long usual = found_.course == TestCourse::relaxation ? usual_points : max_points;
-  put_in_time(test_, path, strain_, stress_, sigma_.has_value(), rows_of(path),
+  std::vector<CurveRow> rows = rows_of(path);
+  std::vector<std::string> told;
+  if (!strain_.value) {
+    leave_out_odd(rows, {"strain", strain_.si(), 1.0, false}, false, told);
+    take_off_rest(strain_.at_rest(), rows, told);
+  }
+  for (const std::string& sentence : told) note(path, sentence);
+  if (found_.course == TestCourse::relaxation && !found_.stress_zero_known)
+    note(path,
+         "no row before the ramp tells the load cell's zero: its stress counts as it stands; "
+         "write zero in stress where it is known");
+  put_in_time(test_, path, strain_, sigma_.has_value(), std::move(rows),
               std::size_t(test_.whole("points", usual, 2, max_points)), found_, result_.notes);
+}
+
+/// Stretches that no rubber bears are told, with what they may come from.
+void TestReader::doubt_stretches() {
+  if (found_.kind == TestKind::volumetric) return;
+  const auto [least, most] = calibration::stretch_range({found_});
+  if (most <= largest_stretch && least >= 1.0 / largest_stretch) return;
+  found_.doubts.push_back(fmt::format(
+      "{} goes to the stretches {:.3g} to {:.3g}, which no rubber bears (1/{:.0f} to {:.0f}): is "
+      "its "
+      "strain in per cent, then write unit = \"%\" in strain; or is it a displacement, or a "
+      "stretch told as strain?",
+      found_.name, least, most, largest_stretch, largest_stretch));
 }
 
 /// Sums of squares in a file of JSON, where others published them.
@@ -222,6 +367,21 @@ void TestReader::read_published() {
   }
 }
 
+/// What is told of the zeros of strain and stress.
+void TestReader::read_zeros() {
+  using enum ColumnZero::By;
+  found_.stress_zero_known = stress_.described.zero.by != nothing;
+  found_.stress_zero_sought = stress_.described.zero.by == fit;
+  found_.strain_zero_sought = strain_.described.zero.by == fit;
+  if (found_.kind == TestKind::volumetric &&
+      (found_.stress_zero_sought || found_.strain_zero_sought))
+    test_.refuse("kind", "volumetric", "zeros are sought of tests that change the shape",
+                 "give the zero, or leave it out");
+  if (found_.strain_zero_sought && found_.course != TestCourse::slow)
+    test_.refuse("strain", "zero = \"fit\"", "is sought of tests without times",
+                 "give the zero, or leave it out");
+}
+
 void TestReader::read() {
   read_kind();
   const std::vector<fs::path> paths = test_.paths("path");
@@ -230,11 +390,9 @@ void TestReader::read() {
   strain_ = strain_column(test_, found_.kind, length_, found_.course == TestCourse::relaxation);
   stress_ = stress_column(test_, area_);
   found_.measure = stress_.measure;
-  if (const auto table = test_.table("sigma")) {
-    table->check_keys({"column", "unit"});
-    sigma_ = stress_;
-    sigma_->column = table->column();
-  }
+  read_zeros();
+  if (const auto table = test_.table("sigma"))
+    sigma_ = described_column(*table, "sigma", stress_.si(), stress_.area ? "N" : "kPa");
   if (found_.course == TestCourse::slow)
     read_slow(paths);
   else if (paths.size() == 1)
@@ -246,6 +404,11 @@ void TestReader::read() {
   if (!broken.empty())
     test_.refuse("strain", broken.front().key + " = " + broken.front().value, broken.front().rule,
                  broken.front().remedy);
+  doubt_stretches();
+  if (found_.kind == TestKind::uniaxial && test_.has("height") && found_.deformation.front() >= 1.0)
+    result_.notes.push_back(found_.name +
+                            ": is read as a tension, though the height is that of a cylinder "
+                            "between plates (compression is negative: sign = -1)");
   const bool held = test_.word<bool>("use", {{"fit", false}, {"predict", true}}, false);
   found_.licence = result_.licence;
   read_published();
@@ -256,23 +419,30 @@ void TestReader::read() {
                        plates_);
 }
 
+/// One curve, or the mean of specimens, whose scatter goes along.
 void TestReader::read_slow(const std::vector<fs::path>& paths) {
-  std::vector<calibration::StrainCurve> curves;
+  std::vector<StrainCurve> curves;
   for (const fs::path& path : paths) curves.push_back(curve_of(path));
-  const bool many =
-      curves.size() > 1 || test_.has("points") || curves.front().size() > std::size_t(usual_points);
-  const long points = test_.whole("points", usual_points, 2, max_points);
-  if (many && sigma_)
-    test_.refuse("sigma", sigma_->column, "a curve that is averaged has no sigma of its own",
-                 "leave sigma out");
-  const auto mean = many ? mean_curve(curves, std::size_t(points)) : curves.front();
-  if (!mean)
-    test_.refuse("path", fmt::format("{} files", curves.size()),
-                 "the repeats have no strain in common", "compare their columns");
-  if (many)
-    result_.notes.push_back(fmt::format("{}: {} file(s), {} stresses at equal steps of the strain",
-                                        found_.name, curves.size(), points));
-  convert(*mean);
+  if (curves.size() == 1) {
+    convert(curves.front());
+  } else {
+    if (sigma_)
+      test_.refuse("sigma", sigma_->column, "a mean of specimens has no sigma of its own",
+                   "leave sigma out");
+    const long points = test_.whole("points", usual_points, 2, max_points);
+    const auto mean = mean_curve(curves, std::size_t(points));
+    if (!mean)
+      test_.refuse("path", fmt::format("{} files", curves.size()),
+                   "the specimens have no strain in common", "compare their columns");
+    found_.specimens = factors_of(curves, *mean);
+    const auto [least, most] = std::ranges::minmax(found_.specimens);
+    result_.notes.push_back(fmt::format(
+        "{}: the mean of {} specimens, at {} equal steps of the strain that all reach; their "
+        "stresses are {:.3g} to {:.3g} of it, a scatter of {}, which its intervals have",
+        found_.name, curves.size(), points, least, most,
+        calibration::percent(calibration::scatter_of(found_.specimens))));
+    convert(*mean);
+  }
   if (plates_) keep_known_compression();
 }
 

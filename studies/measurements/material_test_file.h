@@ -33,29 +33,30 @@ struct MaterialTestFile {
 ///
 ///   [about]  material, source, licence: texts
 ///   [data]   what tests have in common: any key of a test but `name` and `path`
-///   [[test]] name, path (or a list of paths: repeats, averaged), use ("fit" or "predict"),
+///   [[test]] name, path (or a list of paths: specimens), use ("fit" or "predict"),
 ///            kind (of deformation; or "relaxation", "cycles", then with `deformation`),
 ///            separator ("comma", "semicolon", "tab", "whitespace"), skip (lines), header
 ///            (true, false), decimal ("point", "comma"), rows ([first, last] of the data),
-///            strain = {column, is, sign}  is: stretch, engineering, logarithmic, displacement
-///                                         (with unit), shear, volume-ratio, volume-change
-///            stress = {column, is, unit, sign}  is: nominal, true, force, pressure
-///            time = {column, unit, from}  from: ramp, hold; strain = {value, is, sign} where a
-///                                         relaxation holds it
-///            rate (quantity), sigma = {column, unit}, area, length, diameter, height, speed
+///            strain = {column, is, unit, scale, sign, zero}  is: stretch, engineering,
+///                                         logarithmic, displacement, shear, volume-ratio,
+///                                         volume-change
+///            stress = {column, is, ...}   is: nominal, true, force, pressure
+///            time = {column, ..., from}   from: ramp, hold; strain = {value, is, unit, sign} where
+///                                         a relaxation holds it
+///            rate (quantity), sigma = {column, ...}, area, length, diameter, height, speed
 ///            (quantities), range ([from, to] of the strain as it stands in the file), points,
 ///            plates ("slip", "stick"),
 ///            published = {path, unit, LAW...}: sums of squares of other people's fits, in a file
 ///                                         of JSON, LAW = "its/place"
 ///
-/// A column is a name of the header or a number from 1. `area` serves forces, `length` (gauge
-/// length, or height) displacements and the rate; both follow from `diameter` and `height`. Paths
-/// are relative to the file. Rows where the strain steps back are noise and left out; where more
-/// than a tenth do, the curve turns back and `rows` must choose a branch. Repeats, and files of
-/// more than 200 rows, become `points` (2 to 1000; 200) stresses at equal steps of the strain as it
-/// stands in the files, from the largest start to the smallest end, by linear interpolation, and
-/// their mean. Tests in time: timed_test.h. Throws InvalidInput naming file, line, key, value, rule
-/// and remedy.
+/// Columns: DescribedColumn. `area` serves forces, `length` (gauge length, or height) displacements
+/// and the rate; both follow from `diameter` and `height`. Paths are relative to the file. Of slow
+/// tests that go to one side of rest rows are treated as those of a press: odd ones, a load cell at
+/// its limit, reverse order; rows at rest tell the stress's zero where no key does; of cycles the
+/// first loading is taken, holds are left out. More than `points` (2 to 1000; 200) rows are
+/// averaged in as many bins. Of several specimens the mean at `points` equal steps of the strain
+/// that all reach is one test, which knows their scatter. Stretches beyond 12 are doubted. Tests in
+/// time: timed_test.h. Throws InvalidInput naming file, line, key, value, rule and remedy.
 MaterialTestFile read_material_tests(const std::filesystem::path& file);
 
 }  // namespace fingertip::studies::inline measurements

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 
 #include "studies/config/text/units.h"
 
@@ -14,15 +16,17 @@ namespace {
 
 using std::string_view;
 
+/// Of whatever dimension.
 bool is_unit(string_view text) {
-  for (const char* si : {"m", "N", "s", "Pa", "Hz"}) {
-    try {
-      parse_quantity("1 " + std::string(text), si, si);
-      return true;
-    } catch (const UnitError&) {  // of another dimension, or none
-    }
-  }
-  return text == "1" || text == "%";
+  return std::ranges::any_of(std::array{"m", "N", "s", "Pa", "Hz", "1", "kg", "V", "m/s", "1/s"},
+                             [&](const char* si) { return unit_size(text, si).has_value(); });
+}
+
+/// Of names such as "XForce_mN": short words are no units there.
+bool is_written_behind(string_view text) {
+  constexpr string_view units[] = {"N",  "mN", "uN", "kN", "m",   "mm",  "um", "nm",
+                                   "cm", "s",  "ms", "Pa", "kPa", "MPa", "gf", "kgf"};
+  return std::ranges::find(units, text) != std::end(units);
 }
 
 /// "(mm)" or "[mm]" as "mm".
@@ -82,7 +86,10 @@ class TableFinder {
  private:
   bool begins_table(const Line& line);
   bool begins_numbered(const Line& line);
+  void take_titles(TextTable& table);
+  void begin_again(std::size_t header_line);
   bool holds_units();
+  bool is_below_titles(const Line& line);
   void read_row(const Line& line);
   bool cannot_be_row(const TextTable& table, const Line& line) const;
   void add_row(const Line& line);
@@ -107,6 +114,8 @@ class TableFinder {
   };
   std::vector<Odd> odd_;       ///< since the last row
   std::size_t last_line_ = 0;  ///< that was a row, or odd
+  string_view header_;         ///< above numbered columns
+  std::vector<Line> last_above_;  ///< the line at hand and two before it, until a table begins
   std::size_t above_ = 0;
   bool commas_ = false, thousands_ = false;
   TextTables result_;
@@ -152,10 +161,45 @@ bool TableFinder::begins_numbered(const Line& line) {
         });
     if (!numbers) continue;
     table.separator = separator;
+    take_titles(table);
     result_.tables.push_back(std::move(table));
     return true;
   }
   return false;
+}
+
+/// Of numbered columns the titles and units that stand right above the first row.
+void TableFinder::take_titles(TextTable& table) {
+  std::vector<string_view> cells;
+  const auto words = [&](string_view line) {
+    split(line, table.separator, cells);
+    while (cells.size() > table.titles.size() && cells.back().empty()) cells.pop_back();
+    return cells.size() == table.titles.size() && std::ranges::none_of(cells, [](string_view cell) {
+             return number_in(cell) || time_in(cell);
+           });
+  };
+  std::vector<std::optional<std::string>> units(table.titles.size());
+  std::size_t taken = 1;
+  auto line = last_above_.rbegin() + 1;
+  if (line == last_above_.rend() || !words(line->text)) return;
+  const auto none_or_unit = [](string_view cell) { return cell.empty() || is_unit(bare(cell)); };
+  if (std::ranges::all_of(table.needed, [&](std::size_t i) { return none_or_unit(cells[i]); })) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (!cells[i].empty()) units[i] = std::string(bare(cells[i]));
+    if (std::next(line) != last_above_.rend() && words(std::next(line)->text))
+      ++line, ++taken;
+    else
+      cells.assign(units.size(), "");
+  }
+  above_ -= std::min(above_, taken);
+  table.header_line = line->number;
+  header_ = trimmed(line->text);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    TableTitle title = title_of(cells[i]);
+    if (units[i]) title.unit = units[i];
+    if (title.written.empty()) title.written = table.titles[i].written;
+    table.titles[i] = std::move(title);
+  }
 }
 
 /// Whether the first line below the titles tells units; titles take them.
@@ -176,11 +220,27 @@ bool TableFinder::holds_units() {
   return true;
 }
 
+/// Whether a line between titles and rows has no number where they have theirs: channels, symbols.
+bool TableFinder::is_below_titles(const Line& line) {
+  const TextTable& table = result_.tables.back();
+  if (!table.rows.empty() || table.header_line == 0 || cells_.size() != table.titles.size())
+    return false;
+  const auto has_number = [&](std::size_t column) {
+    return time_in(cells_[column]) || std::ranges::any_of(number_styles, [&](NumberStyle style) {
+             return number_in(cells_[column], style).has_value();
+           });
+  };
+  if (line.number > table.header_line + 4 || std::ranges::any_of(table.needed, has_number))
+    return false;
+  passed_.push_back(fmt::format("line {}, '{}'", line.number, shown(trimmed(line.text))));
+  return true;
+}
+
 void TableFinder::read_row(const Line& line) {
   TextTable& table = result_.tables.back();
   split(line.text, table.separator, cells_);
   while (cells_.size() > table.titles.size() && cells_.back().empty()) cells_.pop_back();
-  if (holds_units()) return;
+  if (holds_units() || is_below_titles(line)) return;
   if (table.rows.empty())
     first_is_words_ = is_words(cells_.front());
   else if (!first_is_words_ && is_words(cells_.front())) {
@@ -188,14 +248,19 @@ void TableFinder::read_row(const Line& line) {
     ++words_in_row_;
     return;
   }
-  if (words_in_row_ >= 2 && table.header_line == 0) {
-    end_table();
-    const TextTable before = table;
-    TextTable& next = result_.tables.emplace_back();
-    next.titles = before.titles, next.needed = before.needed, next.separator = before.separator;
-  }
+  if (words_in_row_ >= 2 && !layout_.has_names) begin_again(table.header_line);
   words_in_row_ = 0;
   add_row(line);
+}
+
+/// A further table of numbered columns.
+void TableFinder::begin_again(std::size_t header_line) {
+  end_table();
+  const TextTable before = result_.tables.back();
+  TextTable& next = result_.tables.emplace_back();
+  next.titles = before.titles, next.needed = before.needed, next.separator = before.separator;
+  next.header_line = header_line;
+  words_in_row_ = 0;
 }
 
 /// Whether `cells_` have a gap where a row has its values, or are no row and stand apart. What is
@@ -289,9 +354,14 @@ TextTables TableFinder::found() {
   Lines lines(text_);
   const bool numbered = !layout_.has_names;
   while (const auto line = lines.next()) {
-    if (line->number <= layout_.skip) continue;
     const string_view content = trimmed(line->text);
-    if (content.front() == '#') {
+    const bool comment = content.front() == '#';
+    if (result_.tables.empty()) {
+      if (last_above_.size() == 3) last_above_.erase(last_above_.begin());
+      last_above_.push_back({comment ? trimmed(content.substr(1)) : line->text, line->number});
+    }
+    if (line->number <= layout_.skip) continue;
+    if (comment) {
       result_.comments.push_back(*line);
       continue;
     }
@@ -301,6 +371,10 @@ TextTables TableFinder::found() {
       continue;
     }
     const bool none = result_.tables.empty();
+    if (numbered && !none && !header_.empty() && content == header_) {
+      begin_again(line->number);
+      continue;
+    }
     if (numbered ? none && begins_numbered(*line)
                  : (none || is_words(content)) && begins_table(*line)) {
       if (numbered) read_row(*line);
@@ -327,30 +401,54 @@ TableTitle title_of(string_view written) {
                                      {"\xE2\x80\x99", '\''}})
     for (std::size_t at = 0; (at = own.find(other, at)) != own.npos; ++at)
       own.replace(at, other.size(), 1, usual);
-  const string_view cell = own;
+  const string_view cell = trimmed(own);
   TableTitle title{shown(written), "", {}};
-  const std::size_t end = cell.find_first_of("[(/");
-  for (const char c : trimmed(cell.substr(0, end)))
-    title.name += c == ' ' ? '_' : char(std::tolower(static_cast<unsigned char>(c)));
-  if (end == cell.npos) {
-    // "Weg in mm", "Force, N"
-    for (const string_view between : {" in ", ", "}) {
+  const auto call = [&](string_view name) {
+    for (const char c : trimmed(name))
+      title.name += c == ' ' ? '_' : char(std::tolower(static_cast<unsigned char>(c)));
+  };
+  // Of several brackets the last that hold a unit, else the last.
+  const auto first = cell.find_first_of("[(");
+  for (auto open = first; open != cell.npos; open = cell.find_first_of("[(", open + 1)) {
+    const auto close = std::min(cell.find(cell[open] == '[' ? ']' : ')', open), cell.size());
+    // Of a channel, "Load(Linear:Load)".
+    if (cell.substr(open, close - open).find(':') != cell.npos) continue;
+    const string_view inside = trimmed(cell.substr(open + 1, close - open - 1));
+    if (is_unit(inside) || !title.unit || !is_unit(*title.unit)) title.unit = inside;
+  }
+  const auto in = cell.rfind(" in ");
+  const bool behind_in = in != cell.npos && is_unit(trimmed(cell.substr(in + 4)));
+  const auto slash = behind_in ? cell.npos : cell.substr(0, first).find('/');
+  if (title.unit && !behind_in && (slash == cell.npos || is_unit(*title.unit))) {
+    call(cell.substr(0, first));
+  } else if (slash != cell.npos) {
+    title.unit = trimmed(cell.substr(slash + 1));
+    call(cell.substr(0, slash));
+  } else {
+    // "Weg in mm", "Force, N", "Force_mN"
+    auto end = cell.size();
+    for (const string_view between : {" in ", ", ", "_"}) {
       const auto at = cell.rfind(between);
-      if (at == cell.npos || !is_unit(trimmed(cell.substr(at + between.size())))) continue;
-      title.unit = trimmed(cell.substr(at + between.size()));
-      title.name.resize(trimmed(cell.substr(0, at)).size());
+      if (at == cell.npos) continue;
+      const string_view behind = trimmed(cell.substr(at + between.size()));
+      if (between == "_" ? !is_written_behind(behind) : !is_unit(behind)) continue;
+      title.unit = behind;
+      end = at;
       break;
     }
-    return title;
+    call(cell.substr(0, end));
   }
-  const char open = cell[end], close = open == '[' ? ']' : ')';
-  if (open == '/') {
-    title.unit = trimmed(cell.substr(end + 1));
-    return title;
-  }
-  const auto from = cell.rfind(open);
-  if (cell.back() == close) title.unit = trimmed(cell.substr(from + 1, cell.size() - from - 2));
   return title;
+}
+
+std::optional<double> unit_size(string_view unit, const std::string& si) {
+  const string_view text = trimmed(unit);
+  if (text == "1" || text == "-") return si == "1" ? std::optional(1.0) : std::nullopt;
+  try {
+    return parse_quantity("1 " + std::string(text), si, si);
+  } catch (const UnitError&) {  // of another dimension, or none
+    return {};
+  }
 }
 
 std::optional<double> time_in(string_view cell) {

@@ -30,7 +30,7 @@ struct TableTitle {
 };
 
 struct TextTable {
-  std::vector<TableTitle> titles;   ///< "1", "2" ... where columns are numbered
+  std::vector<TableTitle> titles;   ///< where columns are numbered, of the lines above the numbers
   std::size_t header_line = 0;      ///< 0: none
   std::vector<std::size_t> needed;  ///< columns, as chosen
   char separator = ',';
@@ -83,7 +83,11 @@ class DescribedColumns {
   bool twice_ = false;
 };
 
-/// "Normal force [mN]" in its parts.
+/// SI over a unit, "mm" or "%"; none for what is no unit of `si`, "1" without dimension.
+std::optional<double> unit_size(std::string_view unit, const std::string& si);
+
+/// "Normal force [mN]" in its parts: the unit is what stands in the last brackets, or behind a
+/// slash, " in " or a comma.
 TableTitle title_of(std::string_view cell);
 
 /// A time as a number of seconds, as h:min:s or min:s, or as a date and a time of day [s].

@@ -20,16 +20,11 @@ namespace {
 
 constexpr std::size_t max_corners = 10000;
 
-/// Seconds over the unit of the column.
-double seconds_of(const TestTable& time) {
-  return time.number_of("unit", "1 " + time.text("unit").value_or("s"), "s", "1 s");
-}
-
 void check_times(const std::filesystem::path& file, const Rows& rows) {
   for (std::size_t i = 1; i < rows.size(); ++i)
     if (!(rows[i].time > rows[i - 1].time))
       throw InvalidInput({fmt::format("{}:{}", file.string(), rows[i].line),
-                          fmt::format("{:.6g} after {:.6g}", rows[i].time, rows[i - 1].time),
+                          fmt::format("{:.6g} s after {:.6g} s", rows[i].time, rows[i - 1].time),
                           "times must increase from row to row",
                           "choose the rows of one test by rows = [first, last], or sort them"});
 }
@@ -119,20 +114,10 @@ void add_start(const StrainColumn& strain, const Rows& rows, MaterialTest& test)
 }  // namespace
 
 void put_in_time(const TestTable& description, const std::filesystem::path& file,
-                 const StrainColumn& strain, const StressColumn& stress, bool has_sigma, Rows rows,
-                 std::size_t points, MaterialTest& test, std::vector<std::string>& notes) {
+                 const StrainColumn& strain, bool has_sigma, Rows rows, std::size_t points,
+                 MaterialTest& test, std::vector<std::string>& notes) {
   const std::string name = file.filename().string();
-  const auto has_gap = [](const CurveRow& row) {
-    return std::isnan(row.time + row.x + row.y + row.sigma);
-  };
-  if (const std::size_t empty = std::erase_if(rows, has_gap); empty > 0)
-    notes.push_back(fmt::format("{}: {} rows with empty cells were left out", name, empty));
-  if (rows.size() < 2)
-    description.refuse("path", name, "fewer than two rows are left",
-                       "look at rows and the columns");
   check_times(file, rows);
-  const double unit = seconds_of(*description.table("time"));
-  for (CurveRow& row : rows) row.time *= unit;
   if (strain.value) {
     test.path = held_path(description, strain, rows, test);
   } else {
@@ -168,8 +153,8 @@ void put_in_time(const TestTable& description, const std::filesystem::path& file
     test.time.push_back(row.time);
     test.deformation.push_back(strain.value ? test.path.at(row.time)
                                             : strain.deformation(test.kind, row.x));
-    test.stress.push_back(stress.factor * row.y);
-    if (has_sigma) test.sigma.push_back(std::abs(stress.factor) * row.sigma);
+    test.stress.push_back(row.y);
+    if (has_sigma) test.sigma.push_back(row.sigma);
   }
 }
 

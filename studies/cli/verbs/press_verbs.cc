@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "calibration/files/words.h"
 #include "fem_reference/job/run_tables.h"
 #include "meshes/press/press_response.h"
 #include "meshes/tables/table_rows.h"
@@ -121,7 +122,7 @@ void print_control(const PressSummary& summary) {
     text += fmt::format(" contact force {} held ({} wanted", force.text(held),
                         force.text(tracking.wanted_force));
     if (!std::isnan(deviation))
-      text += fmt::format(", within {:.2g} % in the last {:.0f} ms", 100.0 * deviation,
+      text += fmt::format(", within {} in the last {:.0f} ms", calibration::percent(deviation),
                           1e3 * held_time);
     text += "),";
   } else if (follows && !std::isnan(speed)) {

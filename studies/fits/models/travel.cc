@@ -85,7 +85,8 @@ calibration::Rig rig_of(const RigSettings& settings) {
 
 Travel travel_of(const Curve& curve, const CalibrationSettings& settings) {
   Travel travel{settings.rig, settings.machine, 0.0, 0.0, 0.0, {}, {}};
-  const RigSettings& rig = travel.settings;
+  RigSettings& rig = travel.settings;
+  if (curve.zero_is_sought && !rig.force_offset.given) rig.force_offset = {true, 0.0, 0.0, true};
   if ((rig.drift.fitted || rig.drift.value != 0.0) && curve.time.empty())
     throw InvalidInput({rig_key_name, "drift", curve.name + " has no times",
                         "give its column time, or leave the drift out"});

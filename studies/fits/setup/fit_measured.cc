@@ -191,11 +191,12 @@ void check_curves(const LoadedConfig& loaded, const FitInput& input,
 void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
   FitInput& input = fit.input;
   const auto travels = [](const FitCurve& curve) { return curve.travel.has_value(); };
+  const auto sought = [](const FitCurve& curve) { return curve.zero_is_sought; };
   if (std::ranges::none_of(input.curves, travels)) {
     if (loaded.entries.at("calibration.rig").given)
       throw refused(loaded, "calibration.rig", "", "no file has the column position",
                     "name the travel of the machine so, or leave the rig out");
-    if (input.branches.empty()) return;
+    if (input.branches.empty() && std::ranges::none_of(input.curves, sought)) return;
   }
   CalibrationSettings rigid;
   rigid.rig.touch_offset.fitted = false;

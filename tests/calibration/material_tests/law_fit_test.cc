@@ -57,6 +57,42 @@ void expect_estimates(const LawFit& fit, const VectorXd& expected, double relati
     EXPECT_NEAR(fit.fit.estimates(i), expected(i), relative * std::abs(expected(i))) << i;
 }
 
+/// By the coefficients' covariance: of neo-Hooke G's own interval, of Mooney and Rivlin by hand.
+TEST(LawFit, TheModulusAtRestHasItsInterval) {
+  const MaterialTest test =
+      made(mooney, vector_of({8e3, 2e3}), TestKind::uniaxial, 0.7, 2.0, 40, 200.0);
+  const LawFit one = fit_law({test}, neo), two = fit_law({test}, mooney);
+  const ModulusOfLaws g = modulus_of(one), both = modulus_of(two);
+  EXPECT_NEAR(g.lower, one.fit.lower(0), 1e-6 * g.value);
+  EXPECT_NEAR(g.upper, one.fit.upper(0), 1e-6 * g.value);
+  const auto& covariance = two.fit.covariance;
+  const double error = 2.0 * std::sqrt(covariance.sum()),
+               quantile = (two.fit.upper(0) - two.fit.lower(0)) / 2.0 / two.fit.standard_errors(0);
+  EXPECT_NEAR(both.upper - both.value, quantile * error, 1e-6 * both.value);
+}
+
+/// Laws that tests support alike differ at rest: of a rubber that none of them is, one law's own
+/// interval misses its modulus where that of all holds it.
+TEST(LawFit, LawsTogetherTellTheModulusAtRest) {
+  const std::vector<LawChoice> tried = {
+      neo, mooney, {RubberLaw::yeoh, 2}, gent, {RubberLaw::ogden, 1}};
+  int held = 0, held_by_one = 0;
+  constexpr int draws = 20;
+  const double g = sized_law(ogden2, ogden_rubber).shear_modulus;
+  for (unsigned seed = 1; seed <= draws; ++seed) {
+    const std::vector<LawFit> ranking = rank_laws(
+        {made(ogden2, ogden_rubber, TestKind::uniaxial, 1.05, 1.8, 16, 300.0, seed)}, {}, tried);
+    const LawFit& taken = *recommended(ranking);
+    const ModulusOfLaws own = modulus_of(taken), all = modulus_of_laws(ranking, taken);
+    EXPECT_LE(all.lower, own.lower);
+    EXPECT_GE(all.upper, own.upper);
+    held += all.lower <= g && g <= all.upper ? 1 : 0;
+    held_by_one += own.lower <= g && g <= own.upper ? 1 : 0;
+  }
+  EXPECT_GE(held, 19);
+  EXPECT_LT(held_by_one, held);
+}
+
 TEST(LawFit, RecoversEveryLawFromItsOwnStresses) {
   const std::vector<std::pair<LawChoice, VectorXd>> laws = {{neo, vector_of({20e3})},
                                                             {yeoh, yeoh_rubber},

@@ -153,7 +153,15 @@ Table ranking_table(const LawResult& result) {
                              number(law.aicc - least),
                              stability(law)};
     for (const LawTestEntry& test : law.tests) row.push_back(magnitude_cell(test.rms_relative));
+    row.push_back(prose(law.passed_over));
     table.rows.push_back(std::move(row));
+  }
+  const auto passed_over = [](const LawEntry& law) { return !law.passed_over.empty(); };
+  if (std::ranges::any_of(result.file.laws, passed_over)) {
+    table.header.emplace_back("Passed over, because it");
+    table.header.back().words = true;
+  } else {
+    for (std::vector<Cell>& row : table.rows) row.pop_back();
   }
   return table;
 }

@@ -367,7 +367,7 @@ TEST_F(MachineFiles, PositionsThatFallAreRefusedWithWhatTurnsThemRound) {
                   "path = 'press.csv'\nposition = {column = 'Weg [mm]', sign = -1}\n"
                   "force = {column = 'Kraft [N]'}"});
   const std::string columns = "force = {column = 'Kraft [N]'}\nposition = {column = 'Weg [mm]'";
-  expect_refused(down, columns + "}\n", {"position = {column = ..., sign = -1}"});
+  expect_refused(down, columns + "}\n", {"position = {column = 'Weg [mm]', sign = -1}"});
   const auto turned = read(down, columns + ", sign = -1}\n");
   EXPECT_NEAR(fitted_modulus(turned.at(0).curve), same_, 1e-6 * same_);
 }
