@@ -163,20 +163,27 @@ ordered_json quantity_inputs(const calibration::FitQuantity& quantity) {
 
 ordered_json curve_inputs(const FitInput& input, std::size_t i) {
   const FitCurve& curve = input.curves[i];
-  ordered_json inputs = {{"name", curve.name},
+  // Everything that the judgement of a fit reads: a member more of a curve does not compile.
+  const auto& [name, x_quantity, y_quantity, x, y, sigma, time, is_travel, zero_is_sought, in_time,
+               course] = static_cast<const calibration::Curve&>(curve);
+  ordered_json inputs = {{"name", name},
                          {"condition", curve.condition},
                          {"kind", int(curve.kind)},
-                         {"quantities", {curve.x_quantity, curve.y_quantity}},
-                         {"x", curve.x},
-                         {"y", curve.y},
-                         {"sigma", curve.sigma},
-                         {"theory_error", curve.theory_error}};
+                         {"quantities", {x_quantity, y_quantity}},
+                         {"x", x},
+                         {"y", y},
+                         {"sigma", sigma},
+                         {"time", time},
+                         {"is", {is_travel, zero_is_sought, in_time}},
+                         {"course", meshes::json_of(course)},
+                         {"rows", curve.rows.rows},
+                         {"theory_error", curve.theory_error},
+                         {"finite_excess", curve.finite_excess}};
   if (has_presses(input)) inputs["press"] = inputs_of(curve.press);
   for (const calibration::FitBranch& branch : input.branches)
     for (const calibration::FitQuantity& each : {branch.share, branch.time})
       inputs["branches"].push_back(quantity_inputs(each));
   if (curve.travel) {
-    inputs["time"] = curve.time;
     inputs["machine"] = curve.travel->machine;
     for (const auto member : calibration::rig_members)
       inputs["rig"].push_back(quantity_inputs(curve.travel->rig.*member));
