@@ -263,6 +263,13 @@ TEST_F(MaterialFiles, RowsAtRestTellTheZero) {
   const auto file = read(strain_and_stress, data);
   expect_neo_hooke(file, 1e-6);
   EXPECT_TRUE(says(file.notes.at(0), "9 rows at rest tell the stress 6000 Pa"));
+  // However large: it is no sign.
+  expect_neo_hooke(read(strain_and_stress, table("e,s\n", 54,
+                                                 [](int i) {
+                                                   const double e = 0.01 * std::max(0, i - 8);
+                                                   return Pair(e, stress_at(e) / 1e3 - 80.0);
+                                                 })),
+                   1e-6);
   // A described zero counts alone.
   std::string own = strain_and_stress;
   own.replace(own.find("unit = \"kPa\""), 12, "unit = \"kPa\", zero = 1");
@@ -282,7 +289,7 @@ TEST_F(MaterialFiles, WhatCannotBeIsToldWithItsCause) {
                  far, {"begins 48.21 mm from rest", "zero = \"first row\""});
   std::string turned = strain_and_stress;
   turned.replace(turned.find("unit = \"kPa\""), 12, "unit = \"kPa\", sign = -1");
-  expect_refused(turned, loading_rows(), {"falls below zero", "sign = -1"});
+  expect_refused(turned, loading_rows(), {"falls where the strain grows", "sign = -1"});
   const std::string pressed =
       table("e,s\n", 20, [](int i) { return Pair(-0.01 * i, stress_at(-0.01 * i) / 1e3); });
   std::string shear = strain_and_stress;
