@@ -183,8 +183,13 @@ struct ScoreTest {
   double decrease = 0.0;      ///< of chi-square; without sigma of squares over their variance
   double probability = 1.0;   ///< of at least that decrease if the number were 0
   std::string share_of = {};  ///< OmittedEffect::share_of; not in the file
+  /// By which share of themselves the moduli would change; NaN unknown.
+  double moved = meshes::unknown;
 };
-FINGERTIP_FIELDS_BUT((share_of), ScoreTest, name, of, cause, unit, amount, decrease, probability);
+consteval auto fields_of(const ScoreTest*) {
+  return FINGERTIP_MEMBERS(ScoreTest, name, of, cause, unit, amount, decrease, probability, moved)
+      .newer("moved");
+}
 
 /// What a further measurement would make of a parameter's 95 % interval.
 struct NarrowedEntry {

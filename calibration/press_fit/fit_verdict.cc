@@ -153,6 +153,34 @@ void judge_identifiability(Sentences& found, const FitRecord& record) {
   found.push_back("the data do not determine " + told + remedy);
 }
 
+/// A quantity of the machine that explains a misfit by no chance at all, and with which a modulus
+/// would lie outside of what is told of it, is no remark. Values whose errors follow each other
+/// tell less.
+void judge_causes(Sentences& found, const FitRecord& record) {
+  constexpr double by_no_chance_at_all = 25.0;  // of chi-square of one degree, 6e-7
+  constexpr double outside = 1.5;               // half widths of the interval
+  const CurveFit& fit = record.fit;
+  if (record.lack_of_fit.empty()) return;
+  const ScoreTest& cause = record.lack_of_fit.front();
+  const double decrease = cause.decrease / (fit.order_ratio * fit.order_ratio);
+  if (!std::isfinite(cause.moved) || decrease < by_no_chance_at_all) return;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const Index p = Index(i);
+    const double estimate = fit.estimates(p), change = cause.moved * estimate,
+                 half = change > 0.0 ? fit.upper(p) - estimate : estimate - fit.lower(p);
+    if (unit(fit.parameters[i]) != "Pa" || !(std::abs(change) > outside * half)) continue;
+    const bool of_machine = cause.unit != "1";
+    found.push_back(cause.name + (cause.of.empty() ? "" : " (" + cause.of + ")") +
+                    " explains what is missed and not by chance (" + cause.cause +
+                    "), and with it " + fit.labels[i] + " would be " +
+                    quantity_text(estimate + change, "Pa", 4) + ", outside of its interval: " +
+                    (of_machine ? "let the fit seek it (calibration.rig = {" + cause.name +
+                                      " = \"fit\"}), give it, or press a rigid blank"
+                                : "look at shape, contact and law"));
+    return;
+  }
+}
+
 void judge_material(Sentences& found, const FitRecord& record) {
   for (const meshes::Violation& violation : record.material.violations())
     found.push_back("the estimates are no rubber: " + to_string(violation));
@@ -183,6 +211,7 @@ std::vector<std::string> failed_tests(const FitRecord& record) {
   judge_bounds(found, record);
   judge_identifiability(found, record);
   judge_material(found, record);
+  if (found.empty()) judge_causes(found, record);
   return found;
 }
 

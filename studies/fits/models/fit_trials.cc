@@ -159,7 +159,10 @@ ScoreTest Trials::of(const Freed& freed) {
   const CurveFit after = fitted({freed});
   ScoreTest found = calibration::score_test(before_, after, effect_of(freed));
   if (freed.stiffens) found.amount *= -1.5 / parameter_of(freed).scale;
-  if (freed.kind == Freed::rubber) found.amount = after.estimates(scales_) / after.estimates(0);
+  if (freed.kind == Freed::rubber)
+    found.amount = after.estimates(scales_) / after.estimates(0);
+  else if (scales_ == 1)
+    found.moved = after.estimates(0) / before_.estimates(0) - 1.0;
   return found;
 }
 

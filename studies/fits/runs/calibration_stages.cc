@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/files/words.h"
 #include "calibration/moduli/result_io.h"
 #include "meshes/press/press_response.h"
 #include "meshes/tables/fields_json.h"
@@ -160,8 +161,21 @@ std::vector<PlannedJob> CalibrationStages::fits(const fs::path& run) {
   return jobs;
 }
 
+namespace {
+
+/// Whether data tell a contact by themselves: chi-square is less by 25, which chance does not do,
+/// or without sigma the residuals are half as large.
+bool fits_far_better(const FitFile& fit, const FitFile& than) {
+  constexpr double chi_square = 25.0, share = 0.5;
+  if (!fit.failed.empty() && than.failed.empty()) return false;
+  return std::isfinite(fit.chi_square) ? fit.chi_square < than.chi_square - chi_square
+                                       : fit.residual_deviation < share * than.residual_deviation;
+}
+
+}  // namespace
+
 /// Where the contact is not known: the one that is taken without word, or the other one where only
-/// that has an answer.
+/// that has an answer, or meets the data far better.
 void CalibrationStages::choose_contact(const fs::path& run) {
   if (!other_contact_) return;
   const auto status = [&](const FitSetup& fit, const std::string& name) {
@@ -169,8 +183,22 @@ void CalibrationStages::choose_contact(const fs::path& run) {
   };
   const std::string own = status(setup_, fit_name_),
                     other = status(*other_contact_, other_contact_name);
-  if (own == finished) return;
   const std::string name = contact_name(setup_), rival = contact_name(*other_contact_);
+  if (own == finished) {
+    if (other != finished) return;
+    const FitFile taken = read_fit(run / place(fit_name_)),
+                  better = read_fit(run / place(other_contact_name));
+    if (!fits_far_better(better, taken)) return;
+    setup_ = *std::move(other_contact_);
+    other_contact_.reset();
+    loaded_ = setup_.loaded;
+    fit_name_ = other_contact_name;
+    contact_note_ = fmt::format(
+        " Whether the rubber sticks is not told (press.contact): {} is taken, with which the "
+        "residuals are {:.3g} N in place of {:.3g} N.",
+        rival, better.residual_deviation, taken.residual_deviation);
+    return;
+  }
   if (other != finished)
     throw meshes::NotConverged(
         fmt::format("press.contact is not told; {}: {}; {}: {}", name, own, rival, other));
@@ -270,6 +298,17 @@ void CalibrationStages::complete_moduli(const fs::path& file) const {
   calibration::write_material_toml(found, file);
 }
 
+/// A card that failed after its fit: written as asked, with the reason, or not at all.
+void CalibrationStages::keep_rejected(const FitFile& fit, const fs::path& card) const {
+  if (failed_ != Failed::kept) {
+    fs::remove(card);
+    return;
+  }
+  calibration::Material found = calibration::read_material_toml(card);
+  found.rejected = calibration::in_one(fit.failed);
+  calibration::write_material_toml(found, card);
+}
+
 void CalibrationStages::finish(const fs::path& run) const {
   const fs::path target = run / folder_;
   const auto copy = [&](const std::string& from, const char* file, const char* as) {
@@ -290,8 +329,11 @@ void CalibrationStages::finish(const fs::path& run) const {
     if (other_contact_ && fs::exists(other / "calibration.json"))
       add_other_contact(read_fit(other), contact_name(setup_), contact_name(*other_contact_), fit);
     fit.statement += contact_note_;
+    refuse_what_is_open(fit);
+    if (!fit.failed.empty() && use) keep_rejected(fit, target / "material.toml");
     ordered_json summary = parse_json(run / place(fit_name_) / "summary.json");
     summary["statement"] = fit.statement;
+    summary["failed"] = fit.failed;
     meshes::write_json_file(summary, target / "summary.json");
     meshes::write_json_file(fit, target / "calibration.json");
   }

@@ -61,6 +61,7 @@ class CalibrationStages {
   PlannedJob bias(const std::filesystem::path& run, std::size_t curve) const;
   bool measures_bias() const;
   void add_biases(calibration::FitFile& fit, const std::filesystem::path& run) const;
+  void keep_rejected(const calibration::FitFile& fit, const std::filesystem::path& card) const;
   void complete_moduli(const std::filesystem::path& file) const;
   void finish(const std::filesystem::path& run) const;
 

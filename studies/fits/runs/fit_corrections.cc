@@ -112,4 +112,18 @@ void add_other_contact(const FitFile& other, const std::string& taken, const std
   fit.statement += said;
 }
 
+void refuse_what_is_open(FitFile& fit) {
+  if (!fit.failed.empty()) return;
+  for (const calibration::ParameterEntry& each : fit.parameters) {
+    if (each.unit != "Pa" ||
+        !calibration::is_open(each.unit, each.estimate, each.lower, each.upper))
+      continue;
+    const std::string sentence = fmt::format(
+        "{} is not determined by these data: its 95 % interval is {:.4g} to {:.4g} Pa{}", each.name,
+        each.lower, each.upper, fit.contact ? "; tell the contact (press.contact)" : "");
+    fit.failed.push_back(sentence);
+    fit.statement = "Not accepted: " + sentence + ". " + fit.statement;
+  }
+}
+
 }  // namespace fingertip::studies::inline fits::inline runs

@@ -37,4 +37,8 @@ std::string contact_name(const FitSetup& fit);
 void add_other_contact(const calibration::FitFile& other, const std::string& taken,
                        const std::string& name, calibration::FitFile& fit);
 
+/// Refuses, in a fit that passed its own tests, a modulus whose interval exceeds it (is_open) once
+/// all that widens it has.
+void refuse_what_is_open(calibration::FitFile& fit);
+
 }  // namespace fingertip::studies::inline fits::inline runs

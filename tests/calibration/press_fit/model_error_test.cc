@@ -258,7 +258,23 @@ TEST(FitVerdict, TellsWhyAFitCannotBeUsed) {
   bent.sigma.clear();
   EXPECT_TRUE(says(record_of(bent, line, options), "is missed by"));
   good.sigma.clear();
-  EXPECT_TRUE(failed_tests(record_of(good, line, options)).empty());
+  record = record_of(good, line, options);
+  EXPECT_TRUE(failed_tests(record).empty());
+  // A cause beyond doubt, with which the modulus would be another one.
+  record.lack_of_fit.resize(1);
+  record.lack_of_fit[0].name = "compliance";
+  record.lack_of_fit[0].unit = "m/N";
+  record.lack_of_fit[0].decrease = 30.0;
+  record.lack_of_fit[0].moved = 0.2;
+  EXPECT_TRUE(says(record, "with it modulus would be"));
+  record.lack_of_fit[0].moved = 1e-4;
+  EXPECT_TRUE(failed_tests(record).empty()) << "within its interval";
+  record.lack_of_fit[0].moved = 0.2;
+  record.lack_of_fit[0].decrease = 10.0;
+  EXPECT_TRUE(failed_tests(record).empty()) << "by chance";
+  record.lack_of_fit[0].decrease = 30.0;
+  record.fit.order_ratio = 2.0;
+  EXPECT_TRUE(failed_tests(record).empty()) << "errors that follow each other";
   options.free[0].upper = 3.0;
   options.free[0].lower = 1.5;
   EXPECT_TRUE(says(record_of(good, line, options), "modulus ended at a bound"));

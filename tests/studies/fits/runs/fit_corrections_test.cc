@@ -32,6 +32,24 @@ struct StraightLine {
   }
 };
 
+TEST(FitCorrections, WhatStaysOpenIsRefused) {
+  fingertip::calibration::FitFile fit;
+  fit.parameters.resize(1);
+  fit.parameters[0].name = "modulus";
+  fit.parameters[0].unit = "Pa";
+  fit.parameters[0].estimate = 60e3;
+  fit.parameters[0].lower = 30e3;
+  fit.parameters[0].upper = 90e3;
+  refuse_what_is_open(fit);
+  EXPECT_TRUE(fit.failed.empty());
+  fit.parameters[0].lower = -11e3;
+  fit.parameters[0].upper = 112e3;
+  refuse_what_is_open(fit);
+  ASSERT_EQ(fit.failed.size(), 1U);
+  EXPECT_NE(fit.failed[0].find("modulus is not determined by these data"), std::string::npos);
+  EXPECT_EQ(fit.statement.find("Not accepted: modulus"), 0U);
+}
+
 }  // namespace
 
 TEST(FitBias, AModelThatIsTooStiffMakesTheEstimateTooSmall) {
