@@ -10,9 +10,9 @@
 #include "calibration/files/words.h"
 #include "calibration/material_tests/law_contradictions.h"
 #include "calibration/material_tests/law_starts.h"
-#include "calibration/material_tests/law_zeros.h"
 #include "calibration/material_tests/relaxation_starts.h"
 #include "calibration/material_tests/strain_grid.h"
+#include "calibration/material_tests/zeroed_model.h"
 #include "calibration/statistics/curve_fit.h"
 #include "calibration/statistics/fit_statistics.h"
 #include "meshes/base/errors.h"
@@ -325,9 +325,6 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
     return a.aicc < b.aicc;
   });
   add_differences(equals(ranking), ranking);
-  for (const std::string& sentence : zeros_that_show(tests, ranking, options))
-    for (LawFit& fit : ranking)
-      if (fit.failure.empty()) fail(fit, sentence);
   return ranking;
 }
 

@@ -8,6 +8,7 @@
 
 #include "calibration/material_tests/law_card.h"
 #include "calibration/material_tests/law_record.h"
+#include "calibration/material_tests/law_zeros.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
 #include "source_hash.h"
@@ -90,11 +91,14 @@ void write_cards(const std::vector<LawFit>& ranking, const LawInput& input,
 }
 
 std::vector<LawFit> ranked(const LawInput& input, const JobContext& context) {
-  return rank_laws(input.tests.fitted, input.tests.validation, input.laws, input.options,
-                   [&](double done, const calibration::LawChoice& law) {
-                     if (!context.report(done, name(law)))
-                       throw meshes::Interrupted("the fit of laws was stopped");
-                   });
+  std::vector<LawFit> ranking =
+      rank_laws(input.tests.fitted, input.tests.validation, input.laws, input.options,
+                [&](double done, const calibration::LawChoice& law) {
+                  if (!context.report(done, name(law)))
+                    throw meshes::Interrupted("the fit of laws was stopped");
+                });
+  add_zeros_that_show(input.tests.fitted, ranking, input.options);
+  return ranking;
 }
 
 /// The test `i` of those fitted and, after them, those held back.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "calibration/material_tests/law_fit.h"
+#include "calibration/material_tests/zeroed_model.h"
 
 using namespace fingertip::calibration;
 using Eigen::VectorXd;
@@ -42,6 +43,13 @@ MaterialTest pulled(const LawChoice& choice, const VectorXd& coefficients, doubl
                           noise * normal(random));
   }
   return test;
+}
+
+/// As a job ranks laws.
+std::vector<LawFit> ranked(const MaterialTest& test, const std::vector<LawChoice>& laws) {
+  std::vector<LawFit> ranking = rank_laws({test}, {}, laws);
+  add_zeros_that_show({test}, ranking);
+  return ranking;
 }
 
 TEST(LawZeros, SlopesAreThoseOfTheModel) {
@@ -90,14 +98,14 @@ TEST(LawZeros, ThatShowAreTold) {
   for (const double zero : {6e3, -6e3})
     for (const double noise : {0.0, 400.0, 900.0}) {
       const MaterialTest test = pulled(neo, VectorXd::Constant(1, 90e3), zero, 0.0, noise);
-      const std::vector<LawFit> ranking = rank_laws({test}, {}, laws);
+      const std::vector<LawFit> ranking = ranked(test, laws);
       const LawFit& best = *recommended(ranking);
       ASSERT_FALSE(best.failed.empty()) << zero << " " << noise;
       EXPECT_NE(best.failed.back().find("pulled does not go through rest"), std::string::npos)
           << best.failed.back();
       MaterialTest known = without_zeros(test, zero, 0.0);
       known.stress_zero_known = true;
-      for (const LawFit& fit : rank_laws({known}, {}, {neo}))
+      for (const LawFit& fit : ranked(known, {neo}))
         for (const std::string& sentence : fit.failed)
           EXPECT_EQ(sentence.find("through rest"), std::string::npos);
     }
@@ -117,7 +125,7 @@ TEST(LawZeros, AnUnloadingBranchDoesNotGoThroughRest) {
           test.stress.push_back(60e3 * (own - 1.0 / (own * own)) +
                                 (seed > 0 ? 600.0 * normal(random) : 0.0));
         }
-        const std::vector<LawFit> ranking = rank_laws({test}, {}, laws);
+        const std::vector<LawFit> ranking = ranked(test, laws);
         std::string text;
         for (const std::string& sentence : recommended(ranking)->failed) text += sentence + '\n';
         EXPECT_NE(text.find("does not go through rest"), std::string::npos)
@@ -140,7 +148,7 @@ TEST(LawZeros, DoNotShowWhereThereAreNone) {
       const MaterialTest test = pulled(law, coefficients, 0.0, 0.0, noise * largest, seed, most,
                                        seed % 3 == 0 ? 20 : 60);
       for (const auto& laws : {std::vector{neo}, std::vector{neo, mooney, yeoh}}) {
-        const std::vector<LawFit> ranking = rank_laws({test}, {}, laws);
+        const std::vector<LawFit> ranking = ranked(test, laws);
         ++draws;
         for (const std::string& sentence : ranking.front().failed)
           told += sentence.find("through rest") != std::string::npos ? 1 : 0;

@@ -157,7 +157,7 @@ TEST_F(MaterialInTime, ACaseWithoutItsDataIsSkippedAmongOthers) {
 TEST_F(MaterialInTime, TellsFileAndLineOfTimesThatStepBack) {
   folder_.put("bad.csv", "t,g,s\n0,0,0\n1,0.1,1\n0.5,0.2,2\n");
   describe("bad.csv");
-  EXPECT_TRUE(says(fit(2).err, {"calibration.tests", "bad.csv:4", "0.5 after 1",
+  EXPECT_TRUE(says(fit(2).err, {"calibration.tests", "bad.csv:4", "0.5 s after 1 s",
                                 "times must increase", "rows = [first, last]"}));
 }
 

@@ -1,0 +1,95 @@
+#include "calibration/material_tests/zeroed_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fingertip::calibration::inline material_tests {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+double largest_stress(const MaterialTest& test) {
+  return VectorXd::Map(test.stress.data(), Index(test.stress.size())).cwiseAbs().maxCoeff();
+}
+
+/// From rest to the largest strain.
+double reach_of(const MaterialTest& test) {
+  double reach = 0.0;
+  for (const double l : test.deformation) reach = std::max(reach, std::abs(l - rest_of(test.kind)));
+  return reach;
+}
+
+std::vector<ZeroPlaces> add_zeros(const std::vector<MaterialTest>& tests,
+                                  CurveFitOptions& options) {
+  std::vector<ZeroPlaces> places(tests.size());
+  const auto append = [&](FreeParameter free, const std::string& of) {
+    free.of = of;
+    options.free.push_back(std::move(free));
+    for (VectorXd& start : options.other_starts) {
+      start.conservativeResize(start.size() + 1);
+      start(start.size() - 1) = 0.0;
+    }
+    return Index(options.free.size()) - 1;
+  };
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const double most = largest_stress(tests[t]), reach = reach_of(tests[t]);
+    if (tests[t].stress_zero_sought)
+      places[t].stress = append({.parameter = MaterialParameter::stress_zero,
+                                 .lower = -most,
+                                 .upper = most,
+                                 .scale = most},
+                                tests[t].name);
+    if (tests[t].strain_zero_sought)
+      places[t].strain = append({.parameter = MaterialParameter::strain_zero,
+                                 .lower = -0.5 * reach,
+                                 .upper = 0.5 * reach,
+                                 .scale = reach},
+                                tests[t].name);
+  }
+  return places;
+}
+
+ZeroedModel::ZeroedModel(MaterialTest test, std::vector<double> scales, LawChoice choice,
+                         std::vector<MaterialParameter> parameters, ZeroPlaces zeros)
+    : test_(std::move(test)),
+      scales_(std::move(scales)),
+      choice_(choice),
+      parameters_(std::move(parameters)),
+      zeros_(zeros),
+      law_(test_, scales_, choice_, parameters_) {}
+
+VectorXd ZeroedModel::shifted(double zero, const VectorXd& parameters) const {
+  return LawModel(without_zeros(test_, 0.0, zero), scales_, choice_, parameters_)
+      .evaluate(parameters)
+      .value;
+}
+
+CurveSlopes ZeroedModel::evaluate(const VectorXd& parameters) {
+  CurveSlopes answer;
+  if (zeros_.strain) {
+    const double zero = parameters(*zeros_.strain), step = 1e-5 * reach_of(test_);
+    answer = LawModel(without_zeros(test_, 0.0, zero), scales_, choice_, parameters_)
+                 .evaluate(parameters);
+    answer.jacobian.col(*zeros_.strain) =
+        (shifted(zero + step, parameters) - shifted(zero - step, parameters)) / (2.0 * step);
+  } else {
+    answer = law_.evaluate(parameters);
+  }
+  if (zeros_.stress)
+    for (Index i = 0; i < answer.value.size(); ++i) {
+      const double scale = scales_[std::size_t(i)];
+      answer.value(i) += parameters(*zeros_.stress) / scale;
+      answer.jacobian(i, *zeros_.stress) = 1.0 / scale;
+    }
+  return answer;
+}
+
+MaterialTest without_zeros(MaterialTest test, double stress_zero, double strain_zero) {
+  for (double& stress : test.stress) stress -= stress_zero;
+  for (double& deformation : test.deformation) deformation -= strain_zero;
+  for (double& deformation : test.path.deformation) deformation -= strain_zero;
+  return test;
+}
+
+}  // namespace fingertip::calibration::inline material_tests
