@@ -334,8 +334,9 @@ void TestReader::read_in_time(const fs::path& path) {
 /// Stretches that no rubber bears are told, with what they may come from.
 void TestReader::doubt_stretches() {
   if (found_.kind == TestKind::volumetric) return;
-  const auto [least, most] = calibration::stretch_range({found_});
-  if (most <= largest_stretch && least >= 1.0 / largest_stretch) return;
+  const auto [least, most] = std::ranges::minmax(found_.all_deformations());
+  const bool is_shear = found_.kind == TestKind::simple_shear;
+  if (most <= largest_stretch && (is_shear || least >= 1.0 / largest_stretch)) return;
   found_.doubts.push_back(fmt::format(
       "{} goes to the stretches {:.3g} to {:.3g}, which no rubber bears (1/{:.0f} to {:.0f}): is "
       "its "

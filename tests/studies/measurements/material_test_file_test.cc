@@ -389,6 +389,8 @@ TEST_F(MaterialFiles, StretchesThatNoRubberBearsAreDoubted) {
   ASSERT_EQ(file.fitted.at(0).doubts.size(), 1u);
   EXPECT_TRUE(says(file.fitted[0].doubts[0], "per cent"));
   EXPECT_TRUE(read(strain_and_stress, loading_rows()).fitted.at(0).doubts.empty());
+  // A sheet pulled both ways to 4.5 is a twentieth as thick.
+  EXPECT_TRUE(read(two_columns, "0.09 1.03\n0.9 2.5\n2.4 4.45\n").fitted.at(0).doubts.empty());
 }
 
 TEST_F(MaterialFiles, PathsMayBeginWithAnEnvironmentVariable) {
