@@ -184,33 +184,28 @@ void CalibrationStages::choose_contact(const fs::path& run) {
   const std::string own = status(setup_, fit_name_),
                     other = status(*other_contact_, other_contact_name);
   const std::string name = contact_name(setup_), rival = contact_name(*other_contact_);
-  if (own == finished) {
-    if (other != finished) return;
+  std::string why;
+  if (own == finished && other == finished) {
     const FitFile taken = read_fit(run / place(fit_name_)),
                   better = read_fit(run / place(other_contact_name));
     if (!fits_far_better(better, taken)) return;
-    setup_ = *std::move(other_contact_);
-    other_contact_.reset();
-    loaded_ = setup_.loaded;
-    fit_name_ = other_contact_name;
-    contact_note_ = fmt::format(
-        " Whether the rubber sticks is not told (press.contact): {} is taken, with which the "
-        "residuals are {:.3g} N in place of {:.3g} N.",
-        rival, better.residual_deviation, taken.residual_deviation);
+    why = fmt::format("with which the residuals are {:.3g} N in place of {:.3g} N",
+                      better.residual_deviation, taken.residual_deviation);
+  } else if (own == finished) {
     return;
-  }
-  if (other != finished)
+  } else if (other == finished) {
+    why = fmt::format("since {} contact has no answer ({})", name,
+                      own.substr(0, own.find('\n')).substr(own.find(": ") + 2));
+  } else {
     throw meshes::NotConverged(
         fmt::format("press.contact is not told; {}: {}; {}: {}", name, own, rival, other));
+  }
   setup_ = *std::move(other_contact_);
   other_contact_.reset();
   loaded_ = setup_.loaded;
   fit_name_ = other_contact_name;
   contact_note_ = fmt::format(
-      " Whether the rubber sticks is not told (press.contact): {} is taken, since {} contact has "
-      "no "
-      "answer ({}).",
-      rival, name, own.substr(0, own.find('\n')).substr(own.find(": ") + 2));
+      " Whether the rubber sticks is not told (press.contact): {} is taken, {}.", rival, why);
 }
 
 /// Of a lattice that answered for measured forces: the continuum at the estimates tells its error.
