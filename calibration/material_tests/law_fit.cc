@@ -34,17 +34,13 @@ double root_mean_square(const std::vector<double>& values) {
          std::sqrt(double(values.size()));
 }
 
-double largest(const std::vector<double>& values) {
-  return VectorXd::Map(values.data(), Index(values.size())).cwiseAbs().maxCoeff();
-}
-
 std::vector<double> scales_of(const MaterialTest& test, TestWeights weights) {
   const std::size_t points = test.stress.size();
   if (weights == TestWeights::stress) return std::vector<double>(points, 1.0);
   if (weights == TestWeights::test)
     return std::vector<double>(points, root_mean_square(test.stress));
   std::vector<double> scales;
-  const double least = point_floor * largest(test.stress);
+  const double least = point_floor * largest_stress(test);
   for (const double stress : test.stress) scales.push_back(std::max(std::abs(stress), least));
   return scales;
 }
@@ -144,7 +140,7 @@ TestMisfit predict(const LawFit& fit, const MaterialTest& test, TestWeights weig
   misfit.sum_of_squares = residuals.squaredNorm();
   misfit.rms = std::sqrt(misfit.sum_of_squares / double(misfit.points));
   misfit.rms_relative = misfit.rms / root_mean_square(test.stress);
-  misfit.largest_relative = residuals.cwiseAbs().maxCoeff() / largest(test.stress);
+  misfit.largest_relative = residuals.cwiseAbs().maxCoeff() / largest_stress(test);
   misfit.within = freedom > 0 ? double(inside) / double(misfit.points) : meshes::unknown;
   misfit.structure = residual_structure(residuals);
   if (test.course == TestCourse::cycles) {

@@ -51,10 +51,10 @@ LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
   return entry;
 }
 
-/// Why a law of a lower AICc than `best` is not taken; "" of others.
+/// Why a law of a lower AICc than `best` is not taken.
 std::string why_passed_over(const LawFit& fit, const LawFit& best,
                             const std::vector<LawFit>& ranking) {
-  if (!fit.failure.empty() || &fit >= &best) return "";
+  if (!fit.failure.empty()) return "";
   if (!fit.failed.empty()) return fit.failed.front();
   const std::vector<const LawFit*> chosen_among = equals(ranking);
   if (std::ranges::find(chosen_among, &fit) == chosen_among.end())
@@ -138,7 +138,7 @@ LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<Materia
     return file;
   }
   file.recommended = name(best->choice);
-  for (std::size_t i = 0; i < ranking.size(); ++i)
+  for (std::size_t i = 0; &ranking[i] != best; ++i)
     file.laws[i].passed_over = why_passed_over(ranking[i], *best, ranking);
   file.failed = best->failed;
   const bool first = best == &ranking.front();

@@ -79,6 +79,17 @@ std::optional<double> where_stress_vanishes(const MaterialTest& test) {
   return sx / n - sy / n / slope;
 }
 
+bool is_sought(const MaterialTest& test, MaterialParameter zero) {
+  return zero == MaterialParameter::stress_zero ? test.stress_zero_sought : test.strain_zero_sought;
+}
+
+/// Whether nothing tells a test's zero, of stress or of strain.
+bool may_be_free(const MaterialTest& test, MaterialParameter zero) {
+  return test.kind != TestKind::volumetric &&
+         (zero == MaterialParameter::stress_zero ? !test.stress_zero_known
+                                                 : test.course == TestCourse::slow);
+}
+
 /// The best of a few laws where every test's zero, of stress or of strain, is free unless known.
 /// What a free zero of stress makes of G goes into the ranking.
 std::optional<LawFit> best_with_zeros(const std::vector<MaterialTest>& tests,
@@ -87,11 +98,10 @@ std::optional<LawFit> best_with_zeros(const std::vector<MaterialTest>& tests,
   std::vector<MaterialTest> free = tests;
   bool some = false;
   for (MaterialTest& test : free) {
-    if (test.kind == TestKind::volumetric) continue;
-    if (zero == MaterialParameter::stress_zero && !test.stress_zero_known)
-      some = test.stress_zero_sought = true;
-    if (zero == MaterialParameter::strain_zero && test.course == TestCourse::slow)
-      some = test.strain_zero_sought = true;
+    if (!may_be_free(test, zero)) continue;
+    some = true;
+    (zero == MaterialParameter::stress_zero ? test.stress_zero_sought : test.strain_zero_sought) =
+        true;
   }
   std::optional<LawFit> best;
   if (!some) return best;
@@ -181,19 +191,16 @@ std::vector<std::string> zeros_that_show(const std::vector<MaterialTest>& tests,
     const auto best = best_with_zeros(tests, which, ranking, options);
     if (!best || !(best->aicc < least)) continue;
     std::vector<std::string> told;
-    for (std::size_t i = 0; i < best->fit.parameters.size(); ++i) {
-      if (best->fit.parameters[i] != which) continue;
-      const auto test = std::ranges::find_if(tests, [&](const MaterialTest& each) {
-        return label({.parameter = which, .of = each.name}) == best->fit.labels[i];
-      });
-      if (test == tests.end()) continue;
-      const bool sought = which == MaterialParameter::stress_zero ? test->stress_zero_sought
-                                                                  : test->strain_zero_sought;
-      const double zero = best->fit.estimates(Index(i)),
-                   error = best->fit.standard_errors(Index(i));
-      if (sought || !(std::abs(zero) > far_from_zero * error)) continue;
+    // Zeros stand in the order of their tests, which may share a name.
+    auto parameter = best->fit.parameters.begin();
+    for (const MaterialTest& test : tests) {
+      if (!may_be_free(test, which) && !is_sought(test, which)) continue;
+      parameter = std::find(parameter, best->fit.parameters.end(), which);
+      const Index i = parameter++ - best->fit.parameters.begin();
+      const double zero = best->fit.estimates(i), error = best->fit.standard_errors(i);
+      if (is_sought(test, which) || !(std::abs(zero) > far_from_zero * error)) continue;
       const std::string sentence =
-          sentence_of(*test, which, zero, error, *best, *recommended(ranking));
+          sentence_of(test, which, zero, error, *best, *recommended(ranking));
       if (!sentence.empty()) told.push_back(sentence);
     }
     // The second alternative where it explains more.

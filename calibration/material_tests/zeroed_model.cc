@@ -59,20 +59,19 @@ ZeroedModel::ZeroedModel(MaterialTest test, std::vector<double> scales, LawChoic
       zeros_(zeros),
       law_(test_, scales_, choice_, parameters_) {}
 
-VectorXd ZeroedModel::shifted(double zero, const VectorXd& parameters) const {
+CurveSlopes ZeroedModel::shifted(double zero, const VectorXd& parameters) const {
   return LawModel(without_zeros(test_, 0.0, zero), scales_, choice_, parameters_)
-      .evaluate(parameters)
-      .value;
+      .evaluate(parameters);
 }
 
 CurveSlopes ZeroedModel::evaluate(const VectorXd& parameters) {
   CurveSlopes answer;
   if (zeros_.strain) {
     const double zero = parameters(*zeros_.strain), step = 1e-5 * reach_of(test_);
-    answer = LawModel(without_zeros(test_, 0.0, zero), scales_, choice_, parameters_)
-                 .evaluate(parameters);
+    answer = shifted(zero, parameters);
     answer.jacobian.col(*zeros_.strain) =
-        (shifted(zero + step, parameters) - shifted(zero - step, parameters)) / (2.0 * step);
+        (shifted(zero + step, parameters).value - shifted(zero - step, parameters).value) /
+        (2.0 * step);
   } else {
     answer = law_.evaluate(parameters);
   }

@@ -30,7 +30,8 @@ class ZeroedModel final : public ForwardModel {
   CurveSlopes evaluate(const Eigen::VectorXd& parameters) override;
 
  private:
-  Eigen::VectorXd shifted(double zero, const Eigen::VectorXd& parameters) const;
+  /// The law at l - zero.
+  CurveSlopes shifted(double zero, const Eigen::VectorXd& parameters) const;
 
   MaterialTest test_;
   std::vector<double> scales_;

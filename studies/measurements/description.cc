@@ -334,8 +334,8 @@ std::optional<ColumnUnit> unit_of(const DescribedColumn* described, const TableT
     if (!is_unit || (size && same(*size, wanted)) || (si == "N" && weight && same(*weight, wanted)))
       return found;
     if (has_number(told) || described->scale != 1.0) {
-      notes.push_back(fmt::format("'{}' names the unit [{}]; by the description a {} is {} {}",
-                                  title.written, own, "number", described->scale, told));
+      notes.push_back(fmt::format("'{}' names the unit [{}]; by the description a number is {} {}",
+                                  title.written, own, described->scale, told));
       return found;
     }
     return refuse(fmt::format("the file says [{}] and its description unit = \"{}\"", own, told),

@@ -29,6 +29,13 @@ bool is_written_behind(string_view text) {
   return std::ranges::find(units, text) != std::end(units);
 }
 
+/// In any style, or a time.
+bool is_number(string_view cell) {
+  return time_in(cell) || std::ranges::any_of(number_styles, [&](NumberStyle style) {
+           return number_in(cell, style).has_value();
+         });
+}
+
 /// "(mm)" or "[mm]" as "mm".
 string_view bare(string_view cell) {
   const bool enclosed = cell.size() >= 2 && ((cell.front() == '(' && cell.back() == ')') ||
@@ -154,10 +161,7 @@ bool TableFinder::begins_numbered(const Line& line) {
     table.needed = choose_(table.titles, line.number);
     const bool numbers =
         !table.needed.empty() && std::ranges::all_of(table.needed, [&](std::size_t column) {
-          return time_in(cells_[column]) ||
-                 std::ranges::any_of(number_styles, [&](NumberStyle style) {
-                   return number_in(cells_[column], style).has_value();
-                 });
+          return is_number(cells_[column]);
         });
     if (!numbers) continue;
     table.separator = separator;
@@ -225,11 +229,7 @@ bool TableFinder::is_below_titles(const Line& line) {
   const TextTable& table = result_.tables.back();
   if (!table.rows.empty() || table.header_line == 0 || cells_.size() != table.titles.size())
     return false;
-  const auto has_number = [&](std::size_t column) {
-    return time_in(cells_[column]) || std::ranges::any_of(number_styles, [&](NumberStyle style) {
-             return number_in(cells_[column], style).has_value();
-           });
-  };
+  const auto has_number = [&](std::size_t column) { return is_number(cells_[column]); };
   if (line.number > table.header_line + 4 || std::ranges::any_of(table.needed, has_number))
     return false;
   passed_.push_back(fmt::format("line {}, '{}'", line.number, shown(trimmed(line.text))));

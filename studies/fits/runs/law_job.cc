@@ -91,14 +91,11 @@ void write_cards(const std::vector<LawFit>& ranking, const LawInput& input,
 }
 
 std::vector<LawFit> ranked(const LawInput& input, const JobContext& context) {
-  std::vector<LawFit> ranking =
-      rank_laws(input.tests.fitted, input.tests.validation, input.laws, input.options,
-                [&](double done, const calibration::LawChoice& law) {
-                  if (!context.report(done, name(law)))
-                    throw meshes::Interrupted("the fit of laws was stopped");
-                });
-  add_zeros_that_show(input.tests.fitted, ranking, input.options);
-  return ranking;
+  return rank_laws(input.tests.fitted, input.tests.validation, input.laws, input.options,
+                   [&](double done, const calibration::LawChoice& law) {
+                     if (!context.report(done, name(law)))
+                       throw meshes::Interrupted("the fit of laws was stopped");
+                   });
 }
 
 /// The test `i` of those fitted and, after them, those held back.
@@ -142,7 +139,8 @@ std::vector<LawFit> ranked_between_plates(LawInput& input, const JobContext& con
 }
 
 void run_laws(LawInput input, const fs::path& folder, const JobContext& context) {
-  const std::vector<LawFit> ranking = ranked_between_plates(input, context);
+  std::vector<LawFit> ranking = ranked_between_plates(input, context);
+  add_zeros_that_show(input.tests.fitted, ranking, input.options);
   const std::vector<MaterialTest>&fitted = input.tests.fitted, &validation = input.tests.validation;
   const calibration::LawsFile file = laws_file(ranking, fitted, validation, input.options.weights);
   meshes::write_json_file(file, folder / "laws.json");

@@ -111,6 +111,18 @@ TEST(LawZeros, ThatShowAreTold) {
     }
 }
 
+/// Of two tests of one name the one that has it is found.
+TEST(LawZeros, ThatShowAreThoseOfTheirTestWhateverItsName) {
+  const VectorXd rubber = VectorXd::Constant(1, 90e3);
+  const std::vector<MaterialTest> tests = {pulled(neo, rubber, 0.0, 0.0, 100.0),
+                                           pulled(neo, rubber, 6e3, 0.0, 100.0, 2)};
+  std::vector<LawFit> ranking = rank_laws(tests, {}, {neo, mooney});
+  add_zeros_that_show(tests, ranking);
+  ASSERT_FALSE(ranking.front().failed.empty());
+  EXPECT_NE(ranking.front().failed.back().find("pulled does not go through rest"),
+            std::string::npos);
+}
+
 /// The stress vanishes at the stretch 1.36 (41 rows from there to 3), or at 1.1 to 1.25.
 TEST(LawZeros, AnUnloadingBranchDoesNotGoThroughRest) {
   for (const auto& laws : {known_laws(), std::vector{neo, mooney, yeoh}})
