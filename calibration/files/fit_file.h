@@ -39,11 +39,13 @@ consteval auto fields_of(const ParameterEntry*) {
       .newer("bound_of interval");
 }
 
-/// Whether the data leave open what has `unit`: its 95 % interval exceeds it. A travel at touch, a
+/// Whether the data leave open what has `unit`: a modulus by more than a factor of two, another
+/// size where its 95 % interval exceeds it. A travel at touch, a
 /// load cell's zero and what else a machine adds may well be zero and count by what they do to the
 /// forces, which the directions of a fit tell.
 inline bool is_open(std::string_view unit, double estimate, double lower, double upper) {
-  const bool has_size = unit == "Pa" || unit == "N/m" || unit == "s" || unit == "1" || unit.empty();
+  if (unit == "Pa") return !(2.0 * lower >= estimate && upper <= 2.0 * estimate);
+  const bool has_size = unit == "N/m" || unit == "s" || unit == "1" || unit.empty();
   return has_size && !(upper - lower <= 2.0 * std::abs(estimate));
 }
 
@@ -182,14 +184,29 @@ struct ScoreTest {
   double amount = 0.0;        ///< the number then, in `unit`
   double decrease = 0.0;      ///< of chi-square; without sigma of squares over their variance
   double probability = 1.0;   ///< of at least that decrease if the number were 0
-  std::string share_of = {};  ///< OmittedEffect::share_of; not in the file
-  /// By which share of themselves the moduli would change; NaN unknown.
-  double moved = meshes::unknown;
+  double share = meshes::unknown;  ///< of the misfit that the decrease takes away
+  std::string share_of = {};       ///< OmittedEffect::share_of; not in the file
 };
 consteval auto fields_of(const ScoreTest*) {
-  return FINGERTIP_MEMBERS(ScoreTest, name, of, cause, unit, amount, decrease, probability, moved)
-      .newer("moved");
+  return FINGERTIP_MEMBERS(ScoreTest, name, of, cause, unit, amount, decrease, probability, share)
+      .newer("share");
 }
+
+/// How far measured forces are from those of the model, by its cause (statistics/value_errors.h).
+struct ErrorsEntry {
+  double noise = meshes::unknown;         ///< standard deviation of a value [y]
+  double over_told = meshes::unknown;     ///< the noise over what the file tells; NaN: it does not
+  double misfit = meshes::unknown;        ///< root mean square of the smooth part over the data's
+  double misfit_upper = meshes::unknown;  ///< 95 % point of its deviation, relative to the forces
+  double misfit_seen = 0.0;  ///< twice the log of how many times likelier the data are with it
+  double scatter = meshes::unknown;  ///< deviation of factors between repeats; NaN: none
+  double log_evidence = meshes::unknown;
+
+  /// Chance alone makes this once in a hundred fits.
+  bool misses() const { return misfit_seen > 6.0; }
+};
+FINGERTIP_FIELDS(ErrorsEntry, noise, over_told, misfit, misfit_upper, misfit_seen, scatter,
+                 log_evidence);
 
 /// What a further measurement would make of a parameter's 95 % interval.
 struct NarrowedEntry {
@@ -270,6 +287,7 @@ struct FitFile {
   std::vector<std::string> failed;
   std::optional<RigFile> rig;
   std::vector<ScoreTest> lack_of_fit;
+  std::optional<ErrorsEntry> errors;  ///< of measured presses
   std::vector<NextEntry> next;
   std::optional<ContactEntry> contact;
   std::vector<Repeats> repeats;
@@ -284,9 +302,10 @@ consteval auto fields_of(const FitFile*) {
              only_from_priors, degrees_of_freedom, chi_square, chi_square_probability, birge_ratio,
              model_error, converged, poissons_ratio_bound, residual_deviation, minima, x_quantity,
              y_quantity, curves, residuals, influence, profile, iterations, evaluations, wall_time,
-             validity, failed, rig, lack_of_fit, next, contact, repeats, statement)
+             validity, failed, rig, lack_of_fit, errors, next, contact, repeats, statement)
       .newer(
-          "rubber model_error converged poissons_ratio_bound failed rig lack_of_fit next contact "
+          "rubber model_error converged poissons_ratio_bound failed rig lack_of_fit errors next "
+          "contact "
           "repeats");
 }
 

@@ -28,6 +28,13 @@ struct RigValue {
   bool given = false;                ///< somebody has stated it; else it is the default
 };
 
+/// A value far off all others, which counts for nothing.
+struct OddValue {
+  std::size_t curve = 0, place = 0;
+
+  bool operator==(const OddValue&) const = default;
+};
+
 /// Everything that is told of a fit.
 struct FitRecord {
   std::string problem;  ///< "curve", "experiment", "damping"
@@ -52,6 +59,8 @@ struct FitRecord {
   std::vector<MeasurementGain> next;             ///< further measurements, best first
   std::vector<bool> profiled;    ///< per parameter: its interval is the profile's; or empty
   std::vector<Repeats> repeats;  ///< groups of curves
+  std::optional<ErrorsEntry> errors;  ///< of measured presses
+  std::vector<OddValue> odd;
   /// Where repeats scatter, what each leaves with a factor of its own on its force; else empty.
   std::vector<Eigen::VectorXd> own_residuals;
   double wall_time = 0.0;  ///< [s]

@@ -53,6 +53,44 @@ std::string estimates(const CurveFit& fit) {
   return text + ".";
 }
 
+/// Known errors of the model are in every interval: what they alone make of the first one, where
+/// that is most of it.
+std::string known_errors(const FitRecord& record) {
+  constexpr double most = 0.7;
+  const CurveFit& fit = record.fit;
+  const Eigen::MatrixXd& known = record.options.model_covariance;
+  const double half = 0.5 * (fit.upper(0) - fit.lower(0));
+  if (known.size() == 0 || !(half > 0.0)) return "";
+  const Eigen::RowVectorXd influence = fit.influence.row(0);
+  const double own =
+      normal_95() * std::sqrt(std::max(0.0, influence.dot(known * influence.transpose())));
+  if (own < most * half) return "";
+  return " The interval of " + fit.labels[0] + " is mostly " + record.model_error + ": " +
+         rounded(own, 2) + " of " + rounded(half, 2) + " " + std::string(unit(fit.parameters[0])) +
+         " to either side.";
+}
+
+/// What of the residuals is noise, and what the model misses.
+std::string errors(const FitRecord& record) {
+  const ErrorsEntry& errors = *record.errors;
+  std::string text = " Noise of a value: " + quantity_text(errors.noise, "N", 2);
+  if (std::isfinite(errors.over_told))
+    text += " (" + rounded(errors.over_told, 2) + " times what the files tell)";
+  const std::string most = percent(errors.misfit_upper) + " of the force (95 %)";
+  text += errors.misses()
+              ? ". Beyond it the model misses " + percent(errors.misfit) + ", at most " + most +
+                    ", by no chance; the intervals know that."
+              : ". Beyond it nothing is seen; what the model may miss unseen, at most " + most +
+                    ", is in the intervals.";
+  for (const OddValue& each : record.odd) {
+    const Curve& curve = record.curves[each.curve];
+    text += " " + curve.name + ": the value " + quantity_text(curve.y[each.place], "N", 4) +
+            " at " + quantity_text(curve.x[each.place], "m", 4) +
+            " is far off all others and counts for nothing.";
+  }
+  return text + known_errors(record);
+}
+
 std::string misfit(const FitRecord& record) {
   const bool travel = std::ranges::any_of(record.curves, &Curve::is_travel);
   const double missed = relative_rms(
@@ -64,6 +102,7 @@ std::string misfit(const FitRecord& record) {
                      percent(worst_relative_residual(record)) +
                      (travel ? " of its curve's largest." : " of itself.");
   const CurveFit& fit = record.fit;
+  if (record.errors) return text + errors(record);
   if (!fit.chi_square || !fit.chi_square_probability) return text;
   text += " Chi-square is " + rounded(*fit.chi_square, 3) + " at " +
           std::to_string(fit.degrees_of_freedom) + " degrees of freedom";
@@ -118,14 +157,12 @@ std::string other_minima(const CurveFit& fit) {
 
 std::string structures(const FitRecord& record) {
   std::string text;
+  if (record.errors) return text;
   for (std::size_t c = 0; c < record.curves.size(); ++c) {
     const ResidualStructure structure = structure_of(record, c);
     if (structure.probability < improbable)
       text += " " + record.curves[c].name + ": " + structure.statement + ".";
   }
-  if (record.fit.order_ratio > 1.0)
-    text += " Values whose errors follow each other tell less: the intervals are wider by " +
-            rounded(record.fit.order_ratio, 2) + " for that.";
   return text;
 }
 
@@ -207,15 +244,21 @@ std::string collinearity(const FitRecord& record) {
   return text;
 }
 
-/// What a machine gives way is the one value of a rig that a stiffness cannot be told from, so
-/// where nobody has given it that is said.
+/// What nobody has told of a machine is unknown within what is usual.
 std::string assumptions(const FitRecord& record) {
   std::string text;
-  for (const RigValue& value : record.rig)
-    if (value.quantity == MaterialParameter::compliance && !value.place && !value.given)
-      text += " No compliance of " + (value.of.empty() ? "the machine" : value.of) +
-              " is given: it is taken as rigid; if it gives way, the rubber is stiffer than told.";
-  return text;
+  for (const RigValue& value : record.rig) {
+    if (value.given || !value.place) continue;
+    const auto& prior = record.options.free[*value.place].prior;
+    if (!prior) continue;
+    const std::string unit_text(unit(value.quantity));
+    const double reach = 2.0 * prior->deviation,
+                 low = value.quantity == MaterialParameter::compliance ? 0.0 : prior->mean - reach;
+    text += (text.empty() ? " Nobody tells " : "; ") + record.fit.labels[*value.place] + ": " +
+            quantity_text(low, unit_text, 2) + " to " +
+            quantity_text(prior->mean + reach, unit_text, 2) + " (95 %) counts as possible";
+  }
+  return text.empty() ? text : text + " (calibration.rig).";
 }
 
 /// How much of it there would be: an absurd amount shows that it is not the cause.
@@ -226,12 +269,14 @@ std::string amount_of(const ScoreTest& each) {
 
 /// What freeing the gravest effects would do, where the fit misses its data.
 std::string lack_of_fit(const FitRecord& record) {
-  bool missed = record.fit.birge_ratio > 1.0;
-  if (!record.fit.chi_square_probability)
+  constexpr double most = 0.5;  // of a misfit that known errors of the model can hide
+  bool missed = record.errors ? record.errors->misses() || (!record.lack_of_fit.empty() &&
+                                                            record.lack_of_fit[0].share > most)
+                              : record.fit.birge_ratio > 1.0;
+  if (!record.fit.chi_square_probability && !record.errors)
     for (std::size_t c = 0; c < record.curves.size(); ++c)
       missed = missed || structure_of(record, c).probability < improbable;
   if (!missed) return "";
-  const auto all = record.fit.chi_square.value_or(record.fit.degrees_of_freedom);
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(record.lack_of_fit.size(), 3); ++i) {
     const ScoreTest& each = record.lack_of_fit[i];
@@ -240,8 +285,7 @@ std::string lack_of_fit(const FitRecord& record) {
     text += (i == 0 ? " What is missed looks most like " : "; then ") + named +
             ", which alone would "
             "take away " +
-            percent(std::min(1.0, each.decrease / all)) + " of the misfit (" + amount_of(each) +
-            ": " + each.cause + ")";
+            percent(each.share) + " of the misfit (" + amount_of(each) + ": " + each.cause + ")";
   }
   return text.empty() ? text : text + ".";
 }

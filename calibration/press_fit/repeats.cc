@@ -135,46 +135,4 @@ Repeats repeats_of(const std::vector<std::size_t>& group, const std::vector<Curv
   return repeats;
 }
 
-CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
-               const std::vector<Curve>& curves, const std::vector<VectorXd>& zero) {
-  CurveFit result = fit;
-  Index count = 0;
-  for (const Repeats& group : repeats) count += Index(group.places.size());
-  const Index rows = fit.jacobian.rows(), parameters = fit.jacobian.cols();
-  // A common factor is the modulus' own.
-  const int freedom = fit.degrees_of_freedom - int(count) + int(repeats.size());
-  if (fit.chi_square || count == 0 || freedom < 1) return result;
-  result.jacobian.conservativeResize(rows, parameters + count);
-  Index column = parameters;
-  for (const Repeats& group : repeats)
-    for (const std::size_t curve : group.places)
-      result.jacobian.col(column++) = fit.whitening * force_of_curve(curves, fit, zero, curve);
-  // Columns differ in their units.
-  const VectorXd sizes = result.jacobian.colwise().norm().cwiseMax(1e-300).transpose();
-  const MatrixXd scaled = result.jacobian * sizes.cwiseInverse().asDiagonal();
-  const VectorXd all = fit.whitening * stacked(fit.residuals);
-  const VectorXd left = all - scaled * scaled.completeOrthogonalDecomposition().solve(all);
-  const VectorXd plain = fit.whitening.ldlt().solve(left);
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    result.residuals[i] = plain.segment(first_value(curves, i), fit.residuals[i].size());
-  // Their variance is told by what is left.
-  const double scale = std::sqrt(double(freedom) / std::max(left.squaredNorm(), 1e-300));
-  result.whitening *= scale;
-  result.jacobian *= scale;
-  result.degrees_of_freedom = freedom;
-  return result;
-}
-
-MatrixXd covariance_of(const std::vector<Repeats>& repeats, const std::vector<Curve>& curves,
-                       const CurveFit& fit, const std::vector<VectorXd>& zero) {
-  const Index rows = first_value(curves, curves.size());
-  MatrixXd covariance = MatrixXd::Zero(rows, rows);
-  for (const Repeats& group : repeats)
-    for (const std::size_t curve : group.places) {
-      const VectorXd force = group.deviation * force_of_curve(curves, fit, zero, curve);
-      covariance += force * force.transpose();
-    }
-  return covariance;
-}
-
 }  // namespace fingertip::calibration::inline press_fit

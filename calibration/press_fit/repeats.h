@@ -19,16 +19,4 @@ Repeats repeats_of(const std::vector<std::size_t>& group, const std::vector<Curv
                    const CurveFit& fit, const std::vector<std::size_t>& nuisance,
                    const std::vector<FitQuantity>& touch, const std::vector<Eigen::VectorXd>& zero);
 
-/// The fit as if every repeat had a factor of its own on its force, to first order: residuals
-/// without it, and columns for it behind those of the parameters, which only `score_tests` knows to
-/// take. What is left is what the model misses. With chi-square the scatter is in the whitening,
-/// and the fit is returned as it is.
-CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
-               const std::vector<Curve>& curves, const std::vector<Eigen::VectorXd>& zero);
-
-/// What the scatter adds to the covariance of all values: every repeat's force is off by a factor
-/// of its own, deviation² F Fᵀ for each of them, F the fitted force over its zero.
-Eigen::MatrixXd covariance_of(const std::vector<Repeats>& repeats, const std::vector<Curve>& curves,
-                              const CurveFit& fit, const std::vector<Eigen::VectorXd>& zero);
-
 }  // namespace fingertip::calibration::inline press_fit

@@ -104,41 +104,6 @@ void agree_with_priors(CurveResiduals& residuals, const CurveFitOptions& options
   }
 }
 
-/// What residuals are worth whose errors follow each other.
-struct Order {
-  double independent = 0.0;  ///< values
-  double freedom = 0.0;      ///< of Student's t
-};
-
-/// Of errors that follow each other as a first-order autoregression's do, n values with correlation
-/// r are worth n/f, f = (1 + r)/(1 - r). Each of p parameters, whose derivatives are smooth, takes
-/// f squares out of n, and as much out of the products of neighbours, so that the residuals show (n
-/// r
-/// - p f)/(n - p f). r is known to sqrt((1 - r²)/n) itself, f and so the variance to sqrt(4/(n (1 -
-/// r²))), which counts like n (1 - r²)/2 degrees of freedom. None where chance shows as much in one
-/// of ten; p + 2 values are left at least.
-std::optional<Order> order_of(const std::vector<VectorXd>& residuals, Index parameters) {
-  constexpr double one_of_ten = 1.28;
-  constexpr int rounds = 100;
-  double count = 0.0, pairs = 0.0, squares = 0.0, products = 0.0;
-  for (const VectorXd& curve : residuals) {
-    const Index steps = std::max<Index>(0, curve.size() - 1);
-    count += double(curve.size()), pairs += double(steps);
-    squares += curve.squaredNorm(), products += curve.head(steps).dot(curve.tail(steps));
-  }
-  const auto taken = double(parameters);
-  if (!(squares > 0.0) || !(pairs > 0.0) || !(count > taken + 2.0)) return std::nullopt;
-  const double seen = products * count / (squares * pairs), most = count / (taken + 2.0),
-               highest = (most - 1.0) / (most + 1.0);
-  double r = 0.0, f = 1.0;
-  for (int round = 0; round < rounds; ++round) {
-    r = std::min(seen + (1.0 - seen) * taken * f / count, highest);
-    f = std::max(1.0, (1.0 + r) / (1.0 - r));
-  }
-  if (r * std::sqrt(count) < one_of_ten) return std::nullopt;
-  return Order{count / f, 1.0 / (1.0 / (count / f - taken) + 2.0 / (count * (1.0 - r * r)))};
-}
-
 /// What a relative change refers to: the estimate, and for what may be zero at least its size.
 VectorXd sizes(const VectorXd& estimates, const CurveFitOptions& options) {
   VectorXd sizes = estimates.cwiseAbs();
@@ -215,14 +180,7 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   fit.evaluations = residuals.evaluations();
   const Linearisation& at = residuals.at(fit.estimates);
   const double deviation = add_squares(fit, residuals, at, options);
-  double freedom = fit.degrees_of_freedom;
-  if (options.serial && !residuals.has_sigma())
-    if (const auto order = order_of(fit.residuals, fit.estimates.size())) {
-      const double lost = double(residuals.values()) - order->independent;
-      fit.order_ratio = std::sqrt(freedom / (freedom - lost));
-      freedom = order->freedom;
-    }
-  const double quantile = residuals.has_sigma() ? normal_95() : student_95(freedom);
+  const double quantile = residuals.has_sigma() ? normal_95() : student_95(fit.degrees_of_freedom);
   const VectorXd root = residuals.weights(at).cwiseSqrt();
   const Eigen::MatrixXd jacobian = root.asDiagonal() * at.jacobian / deviation;
   fit.jacobian = jacobian.topRows(residuals.values());
@@ -230,7 +188,6 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   const VectorXd size = sizes(fit.estimates, options);
   Eigen::MatrixXd covariance = Sensitivity(jacobian, size).covariance();
   fit.influence = covariance * fit.jacobian.transpose() * fit.whitening;
-  covariance *= fit.order_ratio * fit.order_ratio;
   // Found without regard to the models' errors, which come through.
   if (!residuals.has_sigma() && options.model_covariance.size() > 0)
     covariance += fit.influence * options.model_covariance * fit.influence.transpose();

@@ -67,8 +67,7 @@ class Valley {
     least_ = loss(at_);
     // Losses are in units of the values' root mean square, not of the residuals' deviation.
     if (!full_.has_sigma())
-      unit_ *= std::pow(
-          std::max(fit.order_ratio * fit.residual_deviation * full_.whitening()(0, 0), 1e-150), 2);
+      unit_ *= std::pow(std::max(fit.residual_deviation * full_.whitening()(0, 0), 1e-150), 2);
   }
 
   /// Of twice the loss over that at the estimates, in units of sigma or of the residual deviation;

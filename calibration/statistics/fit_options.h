@@ -38,8 +38,6 @@ inline std::string label(const FreeParameter& free) {
 
 struct CurveFitOptions {
   std::vector<FreeParameter> free;
-  /// Without sigma, errors of successive values may follow each other: CurveFit::order_ratio.
-  bool serial = false;
   /// Where sigma is not given, the deviation of a value [y] that priors are weighed against; 0:
   /// that which the residuals of the fit yield.
   double value_deviation = 0.0;

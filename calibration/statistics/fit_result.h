@@ -55,11 +55,6 @@ struct CurveFit {
   /// 0.01): the residuals are so many times larger than sigma explains, and the intervals, not the
   /// covariance, are widened by it (Birge, Phys. Rev. 40, 207, 1932). Else 1.
   double birge_ratio = 1.0;
-  /// Where options.serial and residuals have an order: the root of the degrees of freedom over
-  /// those of as many independent values as an autoregression of that correlation is worth.
-  /// Covariance and intervals are as much wider, and Student's t is theirs, but for what
-  /// model_covariance makes of the estimates, in which such errors are known. Else 1.
-  double order_ratio = 1.0;
   double residual_deviation = 0.0;  ///< sqrt(sum of squares / degrees of freedom), data only [y]
   /// J: derivatives of the curves' values, curve by curve, times `whitening` [1 per unit]. Priors
   /// are not among its rows.

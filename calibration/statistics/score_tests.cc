@@ -43,7 +43,15 @@ double probability_of(double decrease, const CurveFit& fit) {
 }
 
 ScoreTest result(const OmittedEffect& of, double amount, double decrease, const CurveFit& fit) {
-  return {of.name,    of.of, of.cause, of.unit, amount, decrease, probability_of(decrease, fit),
+  const double all = fit.chi_square.value_or(double(fit.degrees_of_freedom));
+  return {of.name,
+          of.of,
+          of.cause,
+          of.unit,
+          amount,
+          decrease,
+          probability_of(decrease, fit),
+          all > 0.0 ? std::min(1.0, decrease / all) : 0.0,
           of.share_of};
 }
 

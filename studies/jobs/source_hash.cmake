@@ -31,7 +31,8 @@ endfunction()
 
 hash_rooms(reference meshes fem_reference)
 hash_rooms(lattice meshes lattice)
-hash_rooms(calibration meshes lattice calibration)
+# A fit is what its models, their search and the reading of its files make of it.
+hash_rooms(calibration meshes lattice calibration studies/fits studies/measurements)
 hash_rooms(everything meshes lattice fem_reference calibration studies)
 
 set(header "#pragma once

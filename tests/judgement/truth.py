@@ -4,9 +4,11 @@ import bisect
 import csv
 import math
 import os
+import re
 import subprocess
+import threading
 
-DEPTHS = [0.1 * i for i in range(1, 21)]  # [mm]
+DEPTHS = [0.03, 0.06] + [0.1 * i for i in range(1, 21)]  # [mm]
 SHOWN_SIGMAS, SHOWN_SHARE = 3.0, 0.02
 
 
@@ -15,6 +17,7 @@ class Bench:
 
     def __init__(self, program, folder):
         self.program, self.folder = program, folder
+        self.tables, self.pressing = {}, threading.Lock()
         self.environment = os.environ | {"XDG_CACHE_HOME": str(folder / "cache")}
 
     def run(self, verb, settings, out):
@@ -22,21 +25,31 @@ class Bench:
         return subprocess.run([self.program, verb, "--out", str(out), *sets], cwd=self.folder,
                               env=self.environment, capture_output=True, text=True)
 
-    def press(self, contact, ratio, rod="5 mm", tip="10 mm"):
+    def place(self, contact, ratio, rod="5 mm", tip="10 mm", further=()):
+        """Folder of a press of 100 kPa; further: settings."""
+        name = "_".join([contact, str(ratio), rod, tip, *further])
+        return self.folder / re.sub(r"[^A-Za-z0-9._]+", "", name)
+
+    def press(self, contact, ratio, rod="5 mm", tip="10 mm", further=()):
         """[(depth [mm], force [mN])] of 100 kPa."""
-        out = self.folder / f"{contact}_{ratio}_{rod}_{tip}".replace(" ", "")
-        if not (out / "response.csv").exists():
-            samples = ",".join(f'"{depth:.1f} mm"' for depth in DEPTHS)
-            run = self.run("reference", [
-                f"press.contact={contact}", f"rubber.poissons_ratio={ratio}",
-                'rubber.youngs_modulus="100 kPa"', f'geometry.rod_radius="{rod}"',
-                f'geometry.tip_radius="{tip}"', "press.mode=static", "reference.strain=finite",
-                "reference.fields=false", f"press.samples=[{samples}]"], out)
-            if run.returncode != 0:
-                raise RuntimeError(run.stderr)
-        with open(out / "response.csv", newline="") as file:
-            return [(1e3 * float(row["indentation [m]"]), 1e3 * float(row["normal_force [N]"]))
-                    for row in csv.DictReader(file)]
+        out = self.place(contact, ratio, rod, tip, further)
+        with self.pressing:
+            if out in self.tables:
+                return self.tables[out]
+            if not (out / "response.csv").exists():
+                samples = ",".join(f'"{depth:.4g} mm"' for depth in DEPTHS)
+                run = self.run("reference", [
+                    f"press.contact={contact}", f"rubber.poissons_ratio={ratio}",
+                    'rubber.youngs_modulus="100 kPa"', f'geometry.rod_radius="{rod}"',
+                    f'geometry.tip_radius="{tip}"', "press.mode=static", "reference.strain=finite",
+                    "reference.fields=false", f"press.samples=[{samples}]", *further], out)
+                if run.returncode != 0:
+                    raise RuntimeError(run.stderr)
+            with open(out / "response.csv", newline="") as file:
+                self.tables[out] = [(1e3 * float(row["indentation [m]"]),
+                                     1e3 * float(row["normal_force [N]"]))
+                                    for row in csv.DictReader(file)]
+            return self.tables[out]
 
 
 def force_at(table, depth):
@@ -62,8 +75,8 @@ def least(function, low, high):
     return 0.5 * (low + high)
 
 
-def misses(presses):
-    """Whether the best scale of all and touch of each press miss a row by what has to show.
+def left_over(presses):
+    """What the best common scale and touch of each press leave of rows: [(force, sigma, rest)].
 
     presses: [(rows (position, force, sigma), table of the truth without the fault)].
     """
@@ -89,6 +102,16 @@ def misses(presses):
 
             touches[k] = least(left, touches[k] - 0.5, touches[k] + 0.5)
     scale = scale_of([products(k, touch) for k, touch in enumerate(touches)])
-    return any(abs(f - scale * force_at(table, x - touch)) > max(SHOWN_SIGMAS * e,
-                                                                 SHOWN_SHARE * abs(f))
-               for (rows, table), touch in zip(presses, touches) for x, f, e in rows)
+    return [(f, e, f - scale * force_at(table, x - touch))
+            for (rows, table), touch in zip(presses, touches) for x, f, e in rows]
+
+
+def misses(rests):
+    """Whether a row is missed by what has to show."""
+    return any(abs(rest) > max(SHOWN_SIGMAS * e, SHOWN_SHARE * abs(f)) for f, e, rest in rests)
+
+
+def share_missed(rests):
+    """Root mean square of what is left over the largest force."""
+    return (math.sqrt(sum(rest**2 for _, _, rest in rests) / len(rests))
+            / max(abs(f) for f, _, _ in rests))

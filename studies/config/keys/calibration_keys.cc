@@ -69,9 +69,13 @@ Key rig_key() {
   key.preset = "{}";
   key.fields = {
       {"touch_offset", "m", "0.1 mm", "travel at first touch, of each file; fitted unless given"},
-      {"compliance", "m/N", "0.1 mm/N", "of frame, load cell and grips; 0 unless given"},
-      {"force_offset", "N", "0.02 N", "what the load cell tells without load; 0 unless given"},
-      {"drift", "N/s", "0.001 N/s", "of that in the file's column time; 0 unless given"},
+      {"compliance", "m/N", "0.1 mm/N",
+       "of frame, load cell and grips; 0 to 0.04 mm/N (95 %) unless given"},
+      {"force_offset", "N", "0.02 N",
+       "what the load cell tells without load; within 0.2 % of the largest force (95 %) unless "
+       "given, or as the rows before touch tell"},
+      {"drift", "N/s", "0.001 N/s",
+       "of that in the file's column time; within 0.2 % of the largest force in all unless given"},
       {"blank", "", "blank.csv",
        "a press of a rigid blank by this machine, whose line tells the compliance with its "
        "interval"}};

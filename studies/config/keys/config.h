@@ -78,9 +78,10 @@ struct RigSetting {
 /// The machine that measured a force against the travel of its crosshead (key calibration.rig).
 struct RigSettings {
   RigSetting touch_offset{true};  ///< travel at first touch [m]
-  RigSetting compliance;          ///< [m/N]
-  RigSetting force_offset;        ///< [N]
-  RigSetting drift;               ///< of the force [N/s]
+  /// [m/N]; unless given not below 0, and with this deviation, half of a normal distribution.
+  RigSetting compliance{true, 0.0, 2e-5};
+  RigSetting force_offset;      ///< [N]; unless given travel_of says what it may be
+  RigSetting drift;             ///< of the force [N/s]; likewise
   std::filesystem::path blank;  ///< a press of a rigid blank, which tells the compliance; absolute
 };
 

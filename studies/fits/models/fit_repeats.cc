@@ -1,12 +1,14 @@
 #include "studies/fits/models/fit_repeats.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "calibration/statistics/curve_checks.h"
 #include "calibration/statistics/curve_fit.h"
+#include "calibration/statistics/curve_residuals.h"
 #include "calibration/statistics/fit_statistics.h"
+#include "calibration/statistics/value_errors.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
@@ -72,7 +74,8 @@ bool scatter(const std::vector<calibration::Repeats>& repeats) {
 namespace {
 
 using calibration::Curve, calibration::CurveFit, calibration::Repeats;
-using Eigen::Index, Eigen::MatrixXd;
+using calibration::OddValue;
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 /// Of groups of two curves or more.
 std::vector<calibration::Repeats> repeats_in(const FitInput& input,
@@ -92,145 +95,317 @@ std::vector<calibration::Repeats> repeats_in(const FitInput& input,
   return found;
 }
 
-/// What repeats leave, each with its own factor.
-calibration::CurveFit fit_apart(const FitInput& input, const calibration::CurveFit& fit,
-                                const std::vector<calibration::Repeats>& repeats) {
-  return calibration::apart(fit, repeats, curves_of(input), zeros(input, fit.estimates));
+using Models = std::vector<calibration::ForwardModel*>;
+
+/// Over the deepest press of the same kind: what a model misses is smooth on this scale. It is a
+/// share of the force and, independent of that, a tenth of such a share of the largest one: errors
+/// of what is pressed grow with the force, those of how it is touched do not.
+constexpr double smooth_length = 0.5, near_touch = 0.1;
+/// Priors of the deviations of that share and of factors between repeats.
+constexpr double misfit_scale = 0.01, scatter_scale = 0.05;
+/// No file tells less than this share of the largest force.
+constexpr double least_told = 1e-5;
+/// A value this many deviations off, the misfit taken out, is no noise: one in 150 000.
+constexpr double odd = 4.5;
+
+/// Presses that share what their model misses, those that differ by nothing but their rows.
+std::vector<std::vector<std::size_t>> sharing(const FitInput& input) {
+  std::vector<std::vector<std::size_t>> groups = alike(input);
+  for (std::size_t i = 0; i < input.curves.size(); ++i)
+    if (std::ranges::none_of(
+            groups, [&](const auto& group) { return std::ranges::find(group, i) != group.end(); }))
+      groups.push_back({i});
+  return groups;
 }
 
-/// From where `before` ended, with that covariance.
-CurveFit fit_again(const FitInput& input, const std::vector<calibration::ForwardModel*>& models,
-                   const std::vector<Curve>& curves, const CurveFit& before,
-                   const MatrixXd& covariance) {
-  calibration::CurveFitOptions options = input.options;
-  options.model_covariance = covariance;
-  options.start_once();
-  for (std::size_t i = 0; i < options.free.size(); ++i)
-    options.free[i].start = before.estimates(Index(i));
-  CurveFit fit = calibration::fit_curves(curves, models, options);
-  fit.evaluations += before.evaluations;
-  return fit;
+/// Of one fit: its linearisation, and the force and depth of every value.
+struct Linearised {
+  calibration::LinearisedFit fit;
+  VectorXd force, depth;
+};
+
+Linearised linearised(const FitInput& input, const Models& models, const VectorXd& estimates) {
+  const std::vector<Curve> curves = curves_of(input);
+  const auto zero = zeros(input, estimates);
+  const Index values = first_value(curves, curves.size());
+  Linearised at;
+  at.fit.estimates = estimates;
+  at.fit.free = input.options.free;
+  at.fit.jacobian.resize(values, estimates.size());
+  at.force.resize(values), at.depth.resize(values);
+  VectorXd computed(values);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const calibration::CurveSlopes slopes = models[i]->evaluate(estimates);
+    const Index first = first_value(curves, i), count = slopes.value.size();
+    computed.segment(first, count) = slopes.value;
+    at.fit.jacobian.middleRows(first, count) = slopes.jacobian;
+    at.force.segment(first, count) = (slopes.value - zero[i]).cwiseMax(0.0);
+    const std::vector<double> depths =
+        input.curves[i].travel ? input.curves[i].travel->indentations(curves[i], estimates)
+                               : curves[i].x;
+    at.depth.segment(first, count) = VectorXd::Map(depths.data(), count);
+  }
+  at.fit.residuals = calibration::all_values(curves) - computed;
+  return at;
 }
 
-std::vector<Curve> with_sigma(std::vector<Curve> curves, double sigma) {
-  for (Curve& curve : curves) curve.sigma.assign(curve.y.size(), sigma);
+/// What the model may miss smoothly, shared by presses alike, and a factor of every repeat.
+std::vector<calibration::ErrorComponent> components_of(const FitInput& input,
+                                                       const Linearised& at) {
+  const std::vector<Curve> curves = curves_of(input);
+  calibration::ErrorComponent missed{{}, misfit_scale}, factors{{}, scatter_scale};
+  const auto append = [&](MatrixXd& all, const MatrixXd& columns) {
+    all.conservativeResize(at.force.size(), all.cols() + columns.cols());
+    all.rightCols(columns.cols()) = columns;
+  };
+  for (const auto& group : sharing(input)) {
+    double deepest = 0.0;
+    const auto rows_of = [&](std::size_t i) {
+      return Eigen::seqN(first_value(curves, i), Index(curves[i].y.size()));
+    };
+    for (const std::size_t i : group) deepest = std::max(deepest, at.depth(rows_of(i)).maxCoeff());
+    MatrixXd columns;
+    for (const std::size_t i : group) {
+      const VectorXd force = at.force(rows_of(i));
+      const MatrixXd smooth =
+          calibration::smooth_columns(at.depth(rows_of(i)) / deepest, smooth_length);
+      const VectorXd touched = near_touch * force.maxCoeff() * force.cwiseSign();
+      MatrixXd own(smooth.rows(), 2 * smooth.cols());
+      own << force.asDiagonal() * smooth, touched.asDiagonal() * smooth;
+      if (columns.size() == 0) columns = MatrixXd::Zero(at.force.size(), own.cols());
+      columns(rows_of(i), Eigen::all) = own;
+      if (group.size() < 2) continue;
+      VectorXd factor = VectorXd::Zero(at.force.size());
+      factor(rows_of(i)) = force;
+      append(factors.columns, factor);
+    }
+    append(missed.columns, columns);
+  }
+  std::vector<calibration::ErrorComponent> components{missed};
+  if (factors.columns.cols() > 0) components.push_back(factors);
+  return components;
+}
+
+std::vector<Curve> with_sigma(std::vector<Curve> curves, const VectorXd& sigma) {
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const VectorXd own = sigma.segment(first_value(curves, i), Index(curves[i].y.size()));
+    curves[i].sigma.assign(own.begin(), own.end());
+  }
   return curves;
 }
 
-/// Whitened otherwise: by the values' own errors alone, without the scatter.
-void whiten_by(CurveFit& fit, const MatrixXd& whitening) {
-  fit.jacobian = whitening * fit.whitening.partialPivLu().solve(fit.jacobian);
-  fit.whitening = whitening;
-}
+/// The fit of values whose errors are known by now.
+struct Weighed {
+  std::vector<Curve> curves;
+  calibration::CurveFitOptions options;
+  CurveFit fit;
+  calibration::ValueErrors errors;
+  std::vector<calibration::ErrorComponent> components;
+};
 
-/// The variance between repeats is known from as many as there are, and with it that of what the
-/// repeats tell together, the rubber (Hartung & Knapp, Statistics in Medicine 20, 3875, 2001): of
-/// rig quantities, which each repeat tells for itself, it is a part of the variance.
-void widen(CurveFit& fit, const std::vector<Repeats>& repeats, const MatrixXd& scattered) {
-  int freedom = 0;
-  for (const Repeats& group : repeats)
-    if (group.deviation > 0.0) freedom += int(group.curves.size()) - 1;
-  const MatrixXd between = fit.influence * scattered * fit.influence.transpose();
-  const double few = calibration::student_95(freedom),
-               many = calibration::normal_95() * fit.birge_ratio;
-  for (Index i = 0; i < fit.estimates.size(); ++i) {
-    const double all = fit.covariance(i, i), of_repeats = std::min(between(i, i), all);
-    const double half =
-        calibration::is_of_the_rig(fit.parameters[std::size_t(i)])
-            ? std::hypot(many * std::sqrt(all - of_repeats), few * std::sqrt(of_repeats))
-            : std::max(few, many) * std::sqrt(all);
-    fit.lower(i) = fit.estimates(i) - half;
-    fit.upper(i) = fit.estimates(i) + half;
+/// What nobody has told of a machine is usually as small as its prior says, but who forgot to tare
+/// has forgotten it altogether: Cauchy's distribution, as the normal one that has the same slope at
+/// the estimates. In the first `round` hardly any, so that the data choose which one is large.
+void put_priors(std::vector<calibration::FreeParameter>& free, const FitInput& input,
+                const VectorXd& estimates, int round) {
+  constexpr double open = 50.0;
+  for (const calibration::RigValue& value : rig_values(input)) {
+    if (value.given || !value.place || !free[*value.place].prior) continue;
+    calibration::Prior& prior = *free[*value.place].prior;
+    const calibration::Prior& told = *input.options.free[*value.place].prior;
+    const double widths =
+        round == 0 ? open : (estimates(Index(*value.place)) - told.mean) / told.deviation;
+    prior.deviation = told.deviation * std::sqrt(0.5 * (1.0 + std::max(1.0, widths * widths)));
   }
 }
 
-/// The fit once more, from where it ended, the scatter in the covariance of all values
-/// (input.options.model_covariance): every repeat has a factor on its force, which no touch has to
-/// take up, and what is found is that of their mean. `repeats` are sought again until they stay;
-/// without sigma the values are weighed by what each repeat leaves of itself. Intervals of the
-/// rubber are Student's of the number of repeats, of rigs the part that repeats make.
-CurveFit fit_with_scatter(FitInput& input, const std::vector<calibration::ForwardModel*>& models,
-                          const CurveFit& first, std::vector<Repeats>& repeats) {
-  constexpr int rounds = 8;
-  constexpr double close = 0.01;  // of a standard error
+/// Values that are no noise, `left` over the noise being what is missed; of so many that they are
+/// no exceptions none is.
+std::vector<OddValue> odd_of(const std::vector<Curve>& curves, const VectorXd& left) {
+  constexpr std::size_t one_in = 25;
+  std::vector<OddValue> found;
+  std::size_t values = 0;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    values += curves[i].y.size();
+    for (std::size_t k = 0; k < curves[i].y.size(); ++k)
+      if (std::abs(left(first_value(curves, i) + Index(k))) > odd) found.push_back({i, k});
+  }
+  if (found.size() > values / one_in) found.clear();
+  return found;
+}
+
+/// From where `first` ended, again and again until errors and estimates stay. Of what is told of
+/// noise `deviations` are the sizes; of values that are odd they become what these are off by.
+Weighed weighed(const FitInput& input, const Models& models, const CurveFit& first,
+                VectorXd& deviations, bool told, std::vector<OddValue>& odd_values) {
+  constexpr int rounds = 12;
+  constexpr double close = 0.05;  // of a standard error
   const std::vector<Curve> curves = curves_of(input);
-  const bool known = !curves.front().sigma.empty();
-  MatrixXd& covariance = input.options.model_covariance;
-  const MatrixXd base = covariance;
-  CurveFit fit = first;
-  MatrixXd scattered;
+  Weighed result{curves, input.options, first, {}, {}};
+  const VectorXd plain = deviations;
   for (int round = 0; round < rounds; ++round) {
-    const CurveFit before = fit;
-    scattered = calibration::covariance_of(repeats, curves, fit, zeros(input, fit.estimates));
-    covariance = base.size() == 0 ? scattered : MatrixXd(base + scattered);
-    MatrixXd own = first.whitening;
-    if (!known) {
-      const double deviation = std::max(1.0 / fit_apart(input, fit, repeats).whitening(0, 0),
-                                        1e-9 * fit.residual_deviation);
-      own = MatrixXd::Identity(own.rows(), own.cols()) / deviation;
-      fit = fit_again(input, models, with_sigma(curves, deviation), fit, covariance);
-    } else {
-      fit = fit_again(input, models, curves, fit, covariance);
+    Linearised at = linearised(input, models, result.fit.estimates);
+    put_priors(result.options.free, input, result.fit.estimates, round);
+    at.fit.free = result.options.free;
+    at.fit.deviations = deviations;
+    at.fit.noise_told = told;
+    if (!told) at.fit.least_noise = least_told * at.force.maxCoeff() / plain.minCoeff();
+    at.fit.model_covariance = input.options.model_covariance;
+    result.components = components_of(input, at);
+    // What scatters is no misfit: touches that have taken it up give it back first.
+    if (round == 0 && result.components.size() > 1)
+      result.components.erase(result.components.begin());
+    result.errors = calibration::value_errors(at.fit, result.components);
+    const VectorXd sigma = result.errors.noise * deviations;
+    result.curves = with_sigma(curves, sigma);
+    result.options.model_covariance = result.errors.covariance_of_values;
+    result.options.start_once();
+    for (std::size_t j = 0; j < result.options.free.size(); ++j)
+      result.options.free[j].start =
+          std::clamp(result.fit.estimates(Index(j)), result.options.free[j].lower,
+                     result.options.free[j].upper);
+    const CurveFit before = result.fit;
+    result.fit = calibration::fit_curves(result.curves, models, result.options);
+    result.fit.evaluations += before.evaluations;
+    // What is left is noise.
+    VectorXd left = at.fit.residuals - at.fit.jacobian * (result.errors.mean - at.fit.estimates);
+    for (const VectorXd& part : result.errors.parts) left -= part;
+    const std::vector<OddValue> found =
+        odd_of(curves, left.cwiseQuotient(result.errors.noise * plain));
+    const bool changed = found != odd_values;
+    odd_values = found;
+    deviations = plain;
+    for (const OddValue& each : odd_values) {
+      const Index row = first_value(curves, each.curve) + Index(each.place);
+      deviations(row) = std::abs(left(row)) / result.errors.noise;
     }
-    CurveFit plain = fit;
-    whiten_by(plain, own);
-    if (!known) {
-      // As a fit without sigma is, whose chi-square tells nothing.
-      plain.whitened_residuals.clear();
-      plain.chi_square.reset(), plain.chi_square_probability.reset();
-      plain.birge_ratio = 1.0;
-      fit = plain;
-    }
-    const std::vector<Repeats> again = repeats_in(input, plain);
-    if (!scatter(again)) break;
-    repeats = again;
-    const Eigen::VectorXd step = (fit.estimates - before.estimates).cwiseAbs();
-    if ((step.array() <= close * fit.standard_errors.array()).all()) break;
+    const VectorXd step = (result.fit.estimates - before.estimates).cwiseAbs();
+    if (!changed && round > 1 && (step.array() <= close * result.fit.standard_errors.array()).all())
+      break;
   }
-  widen(fit, repeats, scattered);
+  return result;
+}
+
+/// Its values weighed by their noise, which repeats are compared with.
+CurveFit by_noise_alone(const FitInput& input, const Models& models, const Weighed& by,
+                        const VectorXd& told) {
+  CurveFit fit = by.fit;
+  fit.whitening = (by.errors.noise * told).cwiseInverse().asDiagonal();
+  fit.jacobian = fit.whitening * linearised(input, models, fit.estimates).fit.jacobian;
   return fit;
 }
 
-/// Intervals up to where chi-square has risen, in place of those of the covariance where both ends
-/// are found.
-void add_intervals(const std::vector<calibration::ForwardModel*>& models,
-                   calibration::FitRecord& record) {
-  calibration::CurveFit& fit = record.fit;
+/// What files tell of their values' noise, else as large for all.
+VectorXd told_deviations(const FitInput& input, const CurveFit& fit) {
+  const std::vector<Curve> curves = curves_of(input);
+  const VectorXd values = calibration::all_values(curves);
+  VectorXd deviations = VectorXd::Constant(
+      values.size(), std::max(fit.residual_deviation, 1e-9 * values.cwiseAbs().maxCoeff()));
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    if (const auto& sigma = curves[i].sigma; !sigma.empty())
+      deviations.segment(first_value(curves, i), Index(sigma.size())) =
+          VectorXd::Map(sigma.data(), Index(sigma.size()));
+  return deviations;
+}
+
+/// Chi-square by what the files tell of noise and is known of the models, as of any fit.
+void put_chi_square(CurveFit& fit, const FitInput& input, const VectorXd& told) {
+  fit.chi_square.reset(), fit.chi_square_probability.reset();
+  fit.whitened_residuals.clear();
+  fit.birge_ratio = 1.0;
+  if (input.curves.front().sigma.empty()) return;
+  const Index values = told.size();
+  const MatrixXd& known = input.options.model_covariance;
+  const auto eigen = calibration::decomposed_covariance(
+      known.size() > 0 ? known : MatrixXd::Zero(values, values), told);
+  const VectorXd whitened = eigen.operatorInverseSqrt() * calibration::stacked(fit.residuals);
+  double squares = whitened.squaredNorm();
+  for (std::size_t j = 0; j < input.options.free.size(); ++j)
+    if (const auto& prior = input.options.free[j].prior)
+      squares += std::pow((fit.estimates(Index(j)) - prior->mean) / prior->deviation, 2);
+  for (std::size_t i = 0; i < input.curves.size(); ++i)
+    fit.whitened_residuals.emplace_back(
+        whitened.segment(first_value(input.curves, i), fit.residuals[i].size()));
+  fit.chi_square = squares;
+  if (fit.degrees_of_freedom > 0)
+    fit.chi_square_probability = calibration::chi_square_above(squares, fit.degrees_of_freedom);
+}
+
+/// Covariance and intervals of the posterior, which knows that sizes of errors are estimates.
+void put_posterior(CurveFit& fit, const calibration::ValueErrors& errors,
+                   const std::vector<calibration::FreeParameter>& free) {
+  fit.covariance = errors.covariance;
+  fit.standard_errors = fit.covariance.diagonal().cwiseSqrt();
+  const VectorXd inverse = fit.standard_errors.cwiseInverse();
+  fit.correlation = inverse.asDiagonal() * fit.covariance * inverse.asDiagonal();
+  for (Index j = 0; j < fit.estimates.size(); ++j) {
+    fit.lower(j) = fit.estimates(j) - (errors.mean(j) - errors.lower(j));
+    fit.upper(j) = fit.estimates(j) + (errors.upper(j) - errors.mean(j));
+    const calibration::FreeParameter& own = free[std::size_t(j)];
+    if (own.parameter != calibration::MaterialParameter::compliance || !own.prior) continue;
+    // What may well be zero has an interval there, too.
+    fit.lower(j) = std::max(fit.lower(j), own.lower);
+    if (fit.estimates(j) < 0.5 * own.upper) fit.at_bound[std::size_t(j)] = false;
+  }
+  if (const auto slopes = calibration::ratio_slopes(fit))
+    fit.poissons_ratio_error = std::sqrt(slopes->dot(fit.covariance * *slopes));
+}
+
+calibration::ErrorsEntry entry_of(const calibration::ValueErrors& errors, const VectorXd& told,
+                                  bool is_told, const VectorXd& values) {
+  calibration::ErrorsEntry entry;
+  entry.noise = errors.noise * std::sqrt(told.squaredNorm() / double(told.size()));
+  if (is_told) entry.over_told = errors.noise;
+  entry.misfit = calibration::relative_rms(errors.parts.front(), values);
+  entry.misfit_upper = errors.upper_sizes.front();
+  entry.misfit_seen = errors.seen.front();
+  if (errors.sizes.size() > 1) entry.scatter = errors.sizes[1];
+  entry.log_evidence = errors.log_evidence;
+  return entry;
+}
+
+/// Intervals up to where chi-square has risen as far as it does at those of the posterior, in their
+/// place where both ends are found.
+void add_intervals(const Models& models, const Weighed& by, calibration::FitRecord& record) {
+  CurveFit& fit = record.fit;
   record.profiled.assign(fit.labels.size(), false);
   for (std::size_t i = 0; i < fit.labels.size(); ++i) {
-    if (fit.at_bound[i] || !(fit.standard_errors(Eigen::Index(i)) > 0.0)) continue;
-    const double half_width = 0.5 * (fit.upper(Eigen::Index(i)) - fit.lower(Eigen::Index(i))) /
-                              fit.standard_errors(Eigen::Index(i));
+    const Index j = Index(i);
+    if (fit.at_bound[i] || !(by.fit.standard_errors(j) > 0.0)) continue;
+    const double half_width = 0.5 * (fit.upper(j) - fit.lower(j)) / by.fit.standard_errors(j);
     const auto own =
-        calibration::profile_interval(record.curves, models, record.options, fit, i, half_width);
+        calibration::profile_interval(by.curves, models, by.options, by.fit, i, half_width);
     if (!std::isfinite(own.lower) || !std::isfinite(own.upper)) continue;
-    fit.lower(Eigen::Index(i)) = own.lower;
-    fit.upper(Eigen::Index(i)) = own.upper;
+    fit.lower(j) = own.lower;
+    fit.upper(j) = own.upper;
     record.profiled[i] = true;
   }
 }
 
 }  // namespace
 
-CurveFit add_scatter_and_intervals(FitInput& input,
-                                   const std::vector<calibration::ForwardModel*>& models,
-                                   calibration::FitRecord& record) {
-  record.repeats = repeats_in(input, record.fit);
-  const bool scattered = scatter(record.repeats);
-  CurveFit own = record.fit;
-  if (scattered) {
-    record.fit = fit_with_scatter(input, models, record.fit, record.repeats);
+void add_errors_and_intervals(const FitInput& input, const Models& models,
+                              calibration::FitRecord& record) {
+  record.options = input.options;
+  if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return;
+  const bool is_told = !input.curves.front().sigma.empty();
+  const VectorXd told = told_deviations(input, record.fit);
+  VectorXd deviations = told;
+  const Weighed by = weighed(input, models, record.fit, deviations, is_told, record.odd);
+  record.fit = by.fit;
+  record.repeats = repeats_in(input, by_noise_alone(input, models, by, told));
+  put_posterior(record.fit, by.errors, input.options.free);
+  put_chi_square(record.fit, input, told);
+  record.errors = entry_of(by.errors, told, is_told, calibration::all_values(record.curves));
+  if (scatter(record.repeats)) {
     record.model_error +=
         std::string(record.model_error.empty() ? "" : " and ") + "the scatter between repeats";
-    own = fit_apart(input, record.fit, record.repeats);
-    record.own_residuals = own.residuals;
+    const VectorXd left = calibration::stacked(by.fit.residuals) - by.errors.parts.back();
+    for (std::size_t i = 0; i < input.curves.size(); ++i)
+      record.own_residuals.emplace_back(
+          left.segment(first_value(input.curves, i), Index(input.curves[i].y.size())));
   }
-  record.options = input.options;
-  // Without sigma the scatter of repeats is in the fit alone, not in what profiles know.
-  const bool known = !scattered || !input.curves.front().sigma.empty();
-  if (input.profile_intervals && known && record.fit.converged && record.fit.degrees_of_freedom > 0)
-    add_intervals(models, record);
-  return own;
+  if (input.profile_intervals && record.fit.converged) add_intervals(models, by, record);
 }
 
 }  // namespace fingertip::studies::inline fits::inline models

@@ -1,4 +1,4 @@
-/// Repeats among the curves of a fit.
+/// Errors of the values of a fit, and the repeats among its curves.
 #pragma once
 
 #include <vector>
@@ -19,11 +19,11 @@ std::vector<std::vector<std::size_t>> alike(const FitInput& input);
 /// Whether repeats scatter by more than their errors.
 bool scatter(const std::vector<calibration::Repeats>& repeats);
 
-/// What follows the search for `record.fit`: repeats, the fit with their scatter where they do,
-/// options and intervals of the record. Returns the fit as repeats leave it each with its own
-/// factor (calibration::apart), which tells what the model misses.
-calibration::CurveFit add_scatter_and_intervals(
-    FitInput& input, const std::vector<calibration::ForwardModel*>& models,
-    calibration::FitRecord& record);
+/// What follows the search for `record.fit`: repeats, and the fit once more with the errors that
+/// its values show, noise, a smooth part that the model misses and a factor of every repeat
+/// (calibration::value_errors); options and intervals of the record.
+void add_errors_and_intervals(const FitInput& input,
+                              const std::vector<calibration::ForwardModel*>& models,
+                              calibration::FitRecord& record);
 
 }  // namespace fingertip::studies::inline fits::inline models

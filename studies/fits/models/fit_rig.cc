@@ -25,8 +25,8 @@ constexpr double touch_range = 0.3;
 /// Compliances over reach/force: where a search starts, and between which it stays. Noise makes an
 /// estimate negative where there is none.
 constexpr double start_compliance = 0.05, lowest_compliance = -0.1;
-/// Bounds about the mean of a prior, in deviations.
-constexpr double prior_range = 6.0;
+/// Bounds about the mean of a prior, in deviations: of one that was told, and of the usual.
+constexpr double prior_range = 6.0, usual_range = 300.0;
 
 /// What is fitted has its start and bounds from `usual`, unless a prior gives them.
 FreeParameter free_of(MaterialParameter parameter, const RigSetting& setting, FreeParameter usual,
@@ -34,10 +34,14 @@ FreeParameter free_of(MaterialParameter parameter, const RigSetting& setting, Fr
   usual.parameter = parameter;
   usual.of = of;
   if (setting.deviation > 0.0) {
+    const double range = setting.given ? prior_range : usual_range;
     usual.start = setting.value;
-    usual.lower = setting.value - prior_range * setting.deviation;
-    usual.upper = setting.value + prior_range * setting.deviation;
+    usual.lower = setting.value - range * setting.deviation;
+    usual.upper = std::min(usual.upper, setting.value + range * setting.deviation);
     usual.prior = calibration::Prior{setting.value, setting.deviation};
+    // Nobody has told it, and no machine has less than none.
+    if (parameter == MaterialParameter::compliance && !setting.given)
+      usual.lower = 0.0, usual.start = std::min(0.5 * setting.deviation, 0.1 * usual.upper);
   }
   return usual;
 }

@@ -68,9 +68,17 @@ OmittedEffect effect_of(const Freed& freed) {
           {}};
 }
 
-/// Whether the fit seeks that of `rig_parameters` itself.
+/// What is sought of that of `rig_parameters` though nobody told it.
+bool is_untold(const FitCurve& curve, std::size_t k) {
+  const RigSettings& rig = curve.travel->settings;
+  const RigSetting* settings[] = {&rig.touch_offset, &rig.compliance, &rig.force_offset,
+                                  &rig.drift};
+  return settings[k]->deviation > 0.0 && !settings[k]->given;
+}
+
+/// Whether the fit seeks that of `rig_parameters` as it was told.
 bool is_fitted(const FitCurve& curve, std::size_t k) {
-  return curve.travel && (curve.travel->rig.*rig_members[k]).place;
+  return curve.travel && (curve.travel->rig.*rig_members[k]).place && !is_untold(curve, k);
 }
 
 /// The press of a rubber that is found, times a factor, that of a place among the parameters.
@@ -87,10 +95,6 @@ class ScaledPress final : public calibration::ForwardModel {
   VectorXd forces_;
   Index place_;
 };
-
-double squares_of(const CurveFit& fit) {
-  return fit.chi_square.value_or(double(fit.degrees_of_freedom));
-}
 
 /// Presses that differ, each against all others; of two the one that was not given first.
 void add_rubbers(const FitInput& input, std::vector<Freed>& held) {
@@ -135,7 +139,6 @@ Trials::Trials(const FitInput& input, const calibration::CurveFit& fit,
                const calibration::CurveFitOptions& options, const FitModels& models, bool scatter)
     : input_(input), options_(options), scales_(scatter ? Index(input.curves.size()) : 1) {
   const std::size_t rubber = material_parameters(input);
-  shift_ = Index(rubber) - scales_;
   FreeParameter scale{.parameter = MaterialParameter::modulus, .start = 1.0};
   const auto& first = options.free.front();
   if (rubber == 1 && scales_ == 1 && first.prior)
@@ -146,7 +149,16 @@ Trials::Trials(const FitInput& input, const calibration::CurveFit& fit,
   options_.progress = {};
   options_.max_evaluations = max_trials;
   options_.value_deviation = fit.residual_deviation;  // the same for all that are compared
+  std::vector<bool> held(options.free.size());
+  for (const FitCurve& curve : input.curves)
+    for (std::size_t k = 0; curve.travel && k < rig_members.size(); ++k)
+      if (const auto& place = (curve.travel->rig.*rig_members[k]).place;
+          place && is_untold(curve, k))
+        held[std::size_t(*place)] = true;
+  places_.assign(options.free.size(), -1);
   for (std::size_t k = rubber; k < options.free.size(); ++k) {
+    if (held[k]) continue;
+    places_[k] = Index(options_.free.size()) - scales_;
     options_.free.push_back(options.free[k]);
     options_.free.back().start = fit.estimates(Index(k));
   }
@@ -159,19 +171,8 @@ ScoreTest Trials::of(const Freed& freed) {
   const CurveFit after = fitted({freed});
   ScoreTest found = calibration::score_test(before_, after, effect_of(freed));
   if (freed.stiffens) found.amount *= -1.5 / parameter_of(freed).scale;
-  if (freed.kind == Freed::rubber)
-    found.amount = after.estimates(scales_) / after.estimates(0);
-  else if (scales_ == 1)
-    found.moved = after.estimates(0) / before_.estimates(0) - 1.0;
+  if (freed.kind == Freed::rubber) found.amount = after.estimates(scales_) / after.estimates(0);
   return found;
-}
-
-double Trials::left(const std::vector<Freed>& freed) {
-  return before() - calibration::score_test(before_, fitted(freed), {}).decrease;
-}
-
-double Trials::before() const {
-  return squares_of(before_);
 }
 
 FreeParameter Trials::parameter_of(const Freed& freed) const {
@@ -204,19 +205,24 @@ CurveFit Trials::fitted(const std::vector<Freed>& freed) {
     options.free.insert(
         each.kind == Freed::rubber ? options.free.begin() + scales++ : options.free.end(),
         parameter_of(each));
-  const Index count = Index(options.free.size()), shift = shift_ + scales_ - scales;
+  const Index count = Index(options.free.size());
+  const auto moved = [&](calibration::FitQuantity& quantity) {
+    if (!quantity.place) return;
+    const Index place = places_[std::size_t(*quantity.place)];
+    if (place < 0)
+      quantity.place.reset();
+    else
+      quantity.place = place + scales;
+  };
   std::deque<ScaledPress> presses;
   std::vector<std::unique_ptr<calibration::RigModel>> models;
   std::vector<calibration::ForwardModel*> list;
   std::vector<calibration::FitBranch> branches = input_.branches;
-  for (calibration::FitBranch& branch : branches)
-    for (auto* place : {&branch.share.place, &branch.time.place})
-      if (*place) **place -= shift;
+  for (calibration::FitBranch& branch : branches) moved(branch.share), moved(branch.time);
   for (std::size_t i = 0; i < input_.curves.size(); ++i) {
     const FitCurve& curve = input_.curves[i];
     Rig rig = curve.travel ? curve.travel->rig : Rig{};
-    for (const auto member : rig_members)
-      if (auto& place = (rig.*member).place) place = *place - shift;
+    for (const auto member : rig_members) moved(rig.*member);
     Index scale = scales_ == 1 ? 0 : Index(i);
     Index rubber = scales_, place = Index(options_.free.size()) + scales - scales_;
     for (const Freed& each : freed) {

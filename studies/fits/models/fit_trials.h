@@ -27,7 +27,8 @@ struct Freed {
 /// where each has a factor of its own, for they `scatter`.
 std::vector<Freed> held_by(const FitInput& input, bool scatter);
 
-/// Fits of the forces' scale, of what of the rigs is fitted and of one thing more.
+/// Fits of the forces' scale, of what of the rigs was told to be fitted, and of one thing more.
+/// What nobody told of a rig is held at none.
 class Trials {
  public:
   /// At the estimates of `fit`; each press has a scale of its own where they `scatter`. Throws as
@@ -40,10 +41,9 @@ class Trials {
   /// others'.
   calibration::ScoreTest of(const Freed& freed);
 
-  /// Chi-square, or squares over their variance, that is left with all of these freed.
-  double left(const std::vector<Freed>& freed);
-  double before() const;
-  int freedom() const { return before_.degrees_of_freedom; }
+  /// The fit without one thing more, and its options.
+  const calibration::CurveFit& base() const { return before_; }
+  const calibration::CurveFitOptions& options() const { return options_; }
 
  private:
   calibration::FreeParameter parameter_of(const Freed& freed) const;
@@ -52,7 +52,7 @@ class Trials {
   const FitInput& input_;
   calibration::CurveFitOptions options_;
   Eigen::Index scales_ = 1;  ///< of the forces: one, or one of each curve
-  Eigen::Index shift_ = 0;
+  std::vector<Eigen::Index> places_;  ///< of the fit's parameters behind the scales; -1: held
   std::vector<Eigen::VectorXd> forces_;
   calibration::CurveFit before_;
 };

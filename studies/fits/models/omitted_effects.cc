@@ -5,6 +5,7 @@
 
 #include "calibration/press_fit/model_error.h"
 #include "calibration/statistics/fit_statistics.h"
+#include "studies/fits/models/fit_rig.h"
 #include "studies/fits/models/fit_trials.h"
 
 namespace fingertip::studies::inline fits::inline models {
@@ -108,36 +109,6 @@ std::optional<OmittedEffect> relaxation(const FitInput& input, const calibration
   return effect;
 }
 
-/// The two kinds of a rig's quantities that explain most together, where none does alone.
-std::vector<std::string> best_pair(Trials& trials, const std::vector<Freed>& held,
-                                   const std::vector<ScoreTest>& found) {
-  double least = trials.before();
-  for (const ScoreTest& each : found) least = std::min(least, trials.before() - each.decrease);
-  if (trials.freedom() < 3 ||
-      calibration::chi_square_above(std::max(0.0, least), trials.freedom() - 1) >
-          calibration::by_no_chance)
-    return {};
-  std::vector<std::string> pair;
-  for (std::size_t a = 0; a < rig_members.size(); ++a)
-    for (std::size_t b = a + 1; b < rig_members.size(); ++b) {
-      std::vector<Freed> both;
-      for (const Freed& each : held)
-        if (!each.stiffens && (each.kind == a || each.kind == b)) both.push_back(each);
-      const auto is = [&](std::size_t kind) {
-        return std::ranges::find(both, kind, &Freed::kind) != both.end();
-      };
-      if (!is(a) || !is(b)) continue;
-      if_it_can_be([&] {
-        const double left = trials.left(both);
-        if (left >= least) return;
-        least = left;
-        pair = {std::string(calibration::name(rig_parameters[a])),
-                std::string(calibration::name(rig_parameters[b]))};
-      });
-    }
-  return pair;
-}
-
 }  // namespace
 
 std::vector<std::vector<double>> excess_of_finite_strain(const FitInput& input) {
@@ -152,43 +123,37 @@ std::vector<ScoreTest> score_tests_of(const FitInput& input, const calibration::
                                       const FitModels& models, bool scatter) {
   std::vector<ScoreTest> found;
   if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return found;
-  std::vector<OmittedEffect> effects;
-  for (const Excess& excess : excesses_of(input)) {
-    std::vector<VectorXd> changes;
-    for (std::size_t i = 0; i < input.curves.size(); ++i) {
-      const std::vector<double> relative =
-          at_values(input.curves[i], start_of(input.options), excess.at_samples[i]);
-      changes.push_back(fitted_forces(input, fit, i)
-                            .cwiseProduct(VectorXd::Map(relative.data(), Index(relative.size()))));
-    }
-    effects.push_back({excess.name, "", excess.cause, "1", calibration::stacked(changes), 0.0,
-                       max_excess, "what coarse lattices compute for it"});
-  }
-  if (input.branches.empty())  // else it is in the model
-    if (auto fades = relaxation(input, fit)) effects.push_back(*std::move(fades));
-  found = calibration::score_tests(fit, options, effects);
-  const auto gravest_first = [&] {
-    std::ranges::stable_sort(found, std::greater<>(), &ScoreTest::decrease);
-    // What explains as much and shows itself besides goes first: no other cause makes a loop.
-    // A stiffening has no cause of its own: those that are named go before it.
-    const bool unnamed = !found.empty() && found.front().name == stiffening_name;
-    const auto better = std::ranges::find_if(found, [&](const ScoreTest& each) {
-      return each.decrease > nearly_all * found.front().decrease &&
-             (each.name == relaxation_name || (unnamed && each.name != stiffening_name));
-    });
-    if (better != found.end()) std::rotate(found.begin(), better, better + 1);
-  };
-  gravest_first();
   if_it_can_be([&] {  // a press without forces has no rig
     Trials trials(input, fit, options, models, scatter);
-    const std::vector<Freed> held = held_by(input, scatter);
-    for (const Freed& each : held) if_it_can_be([&] { found.push_back(trials.of(each)); });
-    gravest_first();
-    const std::vector<std::string> pair = best_pair(trials, held, found);
-    std::ranges::stable_partition(found, [&](const ScoreTest& each) {
-      return std::ranges::find(pair, each.name) != pair.end();
-    });
+    const calibration::CurveFit& base = trials.base();
+    std::vector<OmittedEffect> effects;
+    for (const Excess& excess : excesses_of(input)) {
+      std::vector<VectorXd> changes;
+      for (std::size_t i = 0; i < input.curves.size(); ++i) {
+        const std::vector<double> relative =
+            at_values(input.curves[i], start_of(input.options), excess.at_samples[i]);
+        changes.push_back(
+            fitted_forces(input, base, i)
+                .cwiseProduct(VectorXd::Map(relative.data(), Index(relative.size()))));
+      }
+      effects.push_back({excess.name, "", excess.cause, "1", calibration::stacked(changes), 0.0,
+                         max_excess, "what coarse lattices compute for it"});
+    }
+    if (input.branches.empty())  // else it is in the model
+      if (auto fades = relaxation(input, base)) effects.push_back(*std::move(fades));
+    found = calibration::score_tests(base, trials.options(), effects);
+    for (const Freed& each : held_by(input, scatter))
+      if_it_can_be([&] { found.push_back(trials.of(each)); });
   });
+  std::ranges::stable_sort(found, std::greater<>(), &ScoreTest::decrease);
+  // What explains as much and shows itself besides goes first: no other cause makes a loop.
+  // A stiffening has no cause of its own: those that are named go before it.
+  const bool unnamed = !found.empty() && found.front().name == stiffening_name;
+  const auto better = std::ranges::find_if(found, [&](const ScoreTest& each) {
+    return each.decrease > nearly_all * found.front().decrease &&
+           (each.name == relaxation_name || (unnamed && each.name != stiffening_name));
+  });
+  if (better != found.end()) std::rotate(found.begin(), better, better + 1);
   return found;
 }
 

@@ -12,14 +12,12 @@ namespace fingertip::studies::inline fits::inline models {
 /// empty where a theory of large strain is fitted, or where none could be pressed so far.
 std::vector<std::vector<double>> excess_of_finite_strain(const FitInput& input);
 
-/// Of measured presses, at the estimates of `fit`, each with a factor of its own where they
-/// `scatter`, the gravest first: touch offset and zero of the
-/// force of every curve and compliance of every machine, which is not below zero, where they are
-/// not fitted, drift where there are times, each fitted together with the scale of the forces and
-/// the rig's own parameters; a stiffening that no compliance makes; and to first order finite
-/// strain and the other contact, pressed on coarse lattices. Where none alone makes the misfit one
-/// of chance, the two kinds of a rig's quantities come first that together explain most: a late
-/// touch and a soft frame look like a zero of the force.
+/// Of measured presses whose machine is what was told of it, and else rigid and tared, each with a
+/// factor of its own where they `scatter`: what would explain the misfit, the gravest first. Of the
+/// machines touch, zero and drift of every curve and compliance of every machine, which is not
+/// below zero, each fitted together with the scale of the forces; a stiffening that no compliance
+/// makes; to first order finite strain and the other contact, pressed on coarse lattices, and a
+/// rubber that relaxes where files show it. `fit` tells where the search starts.
 std::vector<calibration::ScoreTest> score_tests_of(const FitInput& input,
                                                    const calibration::CurveFit& fit,
                                                    const calibration::CurveFitOptions& options,

@@ -23,6 +23,11 @@ constexpr const char* rig_key_name = "calibration.rig";
 
 /// So much deeper than the touch tells at first the press is known.
 constexpr double reserve = 0.05;
+
+/// Deviations of what nobody has told of a load cell, over the largest force: its zero, and how far
+/// that drifts from the first row to the last.
+constexpr double usual_zero = 0.001, usual_drift = 0.001;
+
 }  // namespace
 
 std::vector<CurveSource> blanks_of(const RigSettings& rig, std::vector<CurveSource> others) {
@@ -86,15 +91,19 @@ calibration::Rig rig_of(const RigSettings& settings) {
 Travel travel_of(const Curve& curve, const CalibrationSettings& settings) {
   Travel travel{settings.rig, settings.machine, 0.0, 0.0, 0.0, {}, {}};
   RigSettings& rig = travel.settings;
-  if (curve.zero_is_sought && !rig.force_offset.given) rig.force_offset = {true, 0.0, 0.0, true};
   if ((rig.drift.fitted || rig.drift.value != 0.0) && curve.time.empty())
     throw InvalidInput({rig_key_name, "drift", curve.name + " has no times",
                         "give its column time, or leave the drift out"});
-  const double zero = rig.force_offset.fitted && rig.force_offset.deviation == 0.0
-                          ? curve.y.front()
-                          : rig.force_offset.value,
+  const bool sought = rig.force_offset.given
+                          ? rig.force_offset.fitted && rig.force_offset.deviation == 0.0
+                          : curve.zero_is_sought;
+  const double zero = sought ? curve.y.front() : rig.force_offset.value,
                soft = rig.compliance.fitted ? 0.0 : rig.compliance.value;
   travel.force = *std::ranges::max_element(curve.y) - zero;
+  if (!rig.force_offset.given)
+    rig.force_offset = {true, 0.0, sought ? 0.0 : usual_zero * travel.force, sought};
+  if (!rig.drift.given && !curve.time.empty())
+    rig.drift = {true, 0.0, usual_drift * travel.force / (curve.time.back() - curve.time.front())};
   const bool known = !rig.touch_offset.fitted || rig.touch_offset.deviation > 0.0;
   travel.touch =
       known ? rig.touch_offset.value : calibration::apparent_touch(curve, zero, soft, travel.force);

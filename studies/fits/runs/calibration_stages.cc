@@ -163,13 +163,18 @@ std::vector<PlannedJob> CalibrationStages::fits(const fs::path& run) {
 
 namespace {
 
-/// Whether data tell a contact by themselves: chi-square is less by 25, which chance does not do,
-/// or without sigma the residuals are half as large.
+/// How many times likelier the data are with a contact that they tell by themselves.
+constexpr double far_likelier = 150.0;
+
 bool fits_far_better(const FitFile& fit, const FitFile& than) {
-  constexpr double chi_square = 25.0, share = 0.5;
   if (!fit.failed.empty() && than.failed.empty()) return false;
-  return std::isfinite(fit.chi_square) ? fit.chi_square < than.chi_square - chi_square
-                                       : fit.residual_deviation < share * than.residual_deviation;
+  return fit.errors && than.errors &&
+         fit.errors->log_evidence > than.errors->log_evidence + std::log(far_likelier);
+}
+
+std::string contact_words(const std::string& taken, const std::string& why) {
+  return fmt::format(" Whether the rubber sticks is not told (press.contact): {} is taken, {}.",
+                     taken, why);
 }
 
 }  // namespace
@@ -188,9 +193,17 @@ void CalibrationStages::choose_contact(const fs::path& run) {
   if (own == finished && other == finished) {
     const FitFile taken = read_fit(run / place(fit_name_)),
                   better = read_fit(run / place(other_contact_name));
-    if (!fits_far_better(better, taken)) return;
-    why = fmt::format("with which the residuals are {:.3g} N in place of {:.3g} N",
-                      better.residual_deviation, taken.residual_deviation);
+    const bool told = fits_far_better(taken, better);
+    if (!told && !fits_far_better(better, taken)) return;
+    const double times = std::abs(better.errors->log_evidence - taken.errors->log_evidence);
+    why = fmt::format(
+        "with which the data are {} times likelier",
+        times > std::log(1e6) ? "over a million" : fmt::format("{:.2g}", std::exp(times)));
+    if (told) {
+      other_contact_.reset();
+      contact_note_ = contact_words(name, why);
+      return;
+    }
   } else if (own == finished) {
     return;
   } else if (other == finished) {
@@ -204,8 +217,7 @@ void CalibrationStages::choose_contact(const fs::path& run) {
   other_contact_.reset();
   loaded_ = setup_.loaded;
   fit_name_ = other_contact_name;
-  contact_note_ = fmt::format(
-      " Whether the rubber sticks is not told (press.contact): {} is taken, {}.", rival, why);
+  contact_note_ = contact_words(rival, why);
 }
 
 /// Of a lattice that answered for measured forces: the continuum at the estimates tells its error.

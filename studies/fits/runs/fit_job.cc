@@ -213,14 +213,16 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   calibration::FitRecord record = described(input);
   record.fit = search(input, models);
   stage = "repeats and intervals";
-  const calibration::CurveFit own = add_scatter_and_intervals(input, list, record);
+  const calibration::CurveFit searched = record.fit;
+  add_errors_and_intervals(input, list, record);
   stage = "curves left out";
   if (input.curves.size() > 1)
     record.left_out = calibration::leave_one_out(record.curves, list, record.options, record.fit);
   stage = "profile";
   if (!input.profile.empty()) add_profile(input, list, record);
   stage = "lack of fit";
-  record.lack_of_fit = score_tests_of(input, own, record.options, models, scatter(record.repeats));
+  record.lack_of_fit =
+      score_tests_of(input, searched, input.options, models, scatter(record.repeats));
   if (record.fit.converged && !input.candidates.empty())
     record.next = measurement_gains(input, models, record.fit.estimates,
                                     record.fit.residual_deviation, folder, context,

@@ -128,7 +128,6 @@ FitSetup assembled(const LoadedConfig& given, Presses presses,
   if (presses == Presses::planned) check_plan(given, input);
   input.options.robust_width = wanted.robust_width;
   input.options.tolerance = search_tolerance;
-  input.options.serial = wanted.problem == CalibrationProblem::experiment;
   input.program = "fingertip " + program_version();
   input.profile = wanted.profile;
   input.density_known = loaded.entries.at("rubber.density").given;
@@ -155,12 +154,12 @@ FitSetup assembled(const LoadedConfig& given, Presses presses,
   input.start_ratios = start_ratios(input);
   input.profile_intervals = has_profile_intervals(wanted, input);
   check_models(loaded, input);
-  // A reference ends where every force is known that well.
+  // A reference ends where every force is known that well, a bar that covers 95 %.
   if (by_continuum(input)) {
     input.theory_error_of = "the continuum's tolerance";
     for (FitCurve& curve : input.curves)
       curve.theory_error.assign(curve.press.protocol.samples.size(),
-                                loaded.config.reference.tolerance);
+                                0.5 * loaded.config.reference.tolerance);
   }
   input.with_lattice_error = std::ranges::all_of(input.curves, is_lattice);
   fit.loaded = given;

@@ -199,11 +199,11 @@ void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
     if (input.branches.empty() && std::ranges::none_of(input.curves, sought)) return;
   }
   CalibrationSettings rigid;
-  rigid.rig.touch_offset.fitted = false;
-  // An indentation says that both are zero.
-  rigid.rig.touch_offset.given = rigid.rig.compliance.given = true;
+  // An indentation says that all are zero, but for a load cell whose rows tell its own.
+  rigid.rig.touch_offset = rigid.rig.compliance = rigid.rig.drift = {.given = true};
   for (FitCurve& curve : input.curves) {
     if (curve.travel) continue;
+    rigid.rig.force_offset.given = !curve.zero_is_sought;
     curve.travel = travel_of(curve, rigid);
     // A machine of its own.
     curve.travel->machine = "indentation of " + curve.name;

@@ -260,21 +260,19 @@ TEST(FitVerdict, TellsWhyAFitCannotBeUsed) {
   good.sigma.clear();
   record = record_of(good, line, options);
   EXPECT_TRUE(failed_tests(record).empty());
-  // A cause beyond doubt, with which the modulus would be another one.
-  record.lack_of_fit.resize(1);
-  record.lack_of_fit[0].name = "compliance";
-  record.lack_of_fit[0].unit = "m/N";
-  record.lack_of_fit[0].decrease = 30.0;
-  record.lack_of_fit[0].moved = 0.2;
-  EXPECT_TRUE(says(record, "with it modulus would be"));
-  record.lack_of_fit[0].moved = 1e-4;
-  EXPECT_TRUE(failed_tests(record).empty()) << "within its interval";
-  record.lack_of_fit[0].moved = 0.2;
-  record.lack_of_fit[0].decrease = 10.0;
-  EXPECT_TRUE(failed_tests(record).empty()) << "by chance";
-  record.lack_of_fit[0].decrease = 30.0;
-  record.fit.order_ratio = 2.0;
-  EXPECT_TRUE(failed_tests(record).empty()) << "errors that follow each other";
+  // What is missed beyond noise, and a machine that is not what was known of it.
+  record.errors = ErrorsEntry{.misfit = 0.09};
+  EXPECT_TRUE(failed_tests(record).empty());
+  record.errors->misfit = 0.11;
+  EXPECT_TRUE(says(record, "it misses 11 % of them beyond noise"));
+  record.errors->misfit = 0.0;
+  record.fit.parameters[0] = MaterialParameter::compliance;
+  record.fit.estimates(0) = 7e-5;
+  record.options.free[0].prior = Prior{1e-5, 2e-5};
+  EXPECT_TRUE(failed_tests(record).empty());
+  record.fit.estimates(0) = 8e-5;
+  record.fit.standard_errors(0) = 1e-6;
+  EXPECT_TRUE(says(record, "3.5 standard deviations from what was known of it"));
   options.free[0].upper = 3.0;
   options.free[0].lower = 1.5;
   EXPECT_TRUE(says(record_of(good, line, options), "modulus ended at a bound"));

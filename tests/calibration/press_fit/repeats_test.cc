@@ -62,7 +62,7 @@ Experiment repeated(const Scatter& scatter, std::size_t count, std::mt19937& ran
 }
 
 struct Answer {
-  CurveFit alone, together;  ///< without and with the scatter
+  CurveFit alone;  ///< without the scatter
   Repeats repeats;
 };
 
@@ -83,8 +83,6 @@ Answer answer(const Experiment& experiment) {
   result.alone = fit_curves(experiment.curves, models, options);
   result.repeats = repeats_of(group, experiment.curves, result.alone, {},
                               std::vector<FitQuantity>(group.size()), zero);
-  options.model_covariance = covariance_of({result.repeats}, experiment.curves, result.alone, zero);
-  result.together = fit_curves(experiment.curves, models, options);
   return result;
 }
 
@@ -107,28 +105,6 @@ TEST(Repeats, FactorsAreThoseOfThePresses) {
   ASSERT_EQ(found.repeats.travel.size(), 40U);
   EXPECT_NEAR(found.repeats.travel[19], 1.5e-3, 1e-15);
   EXPECT_NEAR(found.repeats.scatter[19] / found.repeats.mean[19], std::sqrt(squares) / mean, 1e-4);
-}
-
-/// Factors that differ leave residuals with an order; with a factor each only noise is left.
-TEST(Repeats, ApartTheyLeaveNoise) {
-  std::mt19937 random(6);
-  const Experiment experiment = repeated({0.05, 0.005, false}, 4, random);
-  const Answer found = answer(experiment);
-  const CurveFit left = apart(found.alone, {found.repeats}, experiment.curves,
-                              std::vector<VectorXd>(4, VectorXd::Zero(30)));
-  EXPECT_EQ(left.jacobian.cols(), 5);
-  EXPECT_EQ(left.degrees_of_freedom, 120 - 4);
-  const double largest = modulus_value * 0.16 * std::pow(3e-3, 1.5);
-  double squares = 0.0, before = 0.0, white = 0.0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    squares += left.residuals[k].squaredNorm() / 116.0;
-    before += found.alone.residuals[k].squaredNorm() / 119.0;
-    white += (left.whitening(0, 0) * left.residuals[k]).squaredNorm();
-  }
-  // The deviation of 116 values is known to 7 %.
-  EXPECT_NEAR(std::sqrt(squares) / largest, 0.005, 0.001);
-  EXPECT_GT(std::sqrt(before) / largest, 0.01);
-  EXPECT_NEAR(white, 116.0, 1e-6);
 }
 
 /// The method of moments: the square of the deviation is right in the mean.
@@ -157,22 +133,4 @@ TEST(Repeats, ThatDoNotScatterAreNotAccused) {
     below += answer(repeated({0.0, 0.02}, 5, random)).repeats.probability < 0.1 ? 1 : 0;
   // Binomial: 20 +- 4.2.
   EXPECT_NEAR(below, 20, 13);
-}
-
-/// Six repeats that scatter by 5 %: noise alone makes intervals of a third of a percent.
-TEST(Repeats, IntervalsContainTheScatter) {
-  std::mt19937 random(4);
-  constexpr int seeds = 200;
-  int alone = 0, together = 0;
-  for (int seed = 0; seed < seeds; ++seed) {
-    const Answer found = answer(repeated({0.05, 0.02}, 6, random));
-    const auto covers = [](const CurveFit& fit) {
-      return fit.lower(0) <= modulus_value && modulus_value <= fit.upper(0);
-    };
-    alone += covers(found.alone) ? 1 : 0;
-    together += covers(found.together) ? 1 : 0;
-  }
-  EXPECT_LT(alone, seeds / 2);
-  // A normal interval with the deviation of six is one of 90 %: Student's quantile is 2.57.
-  EXPECT_GE(together, 170);
 }

@@ -70,8 +70,7 @@ bool tells(const json& fit, const std::string& name) {
   const std::string statement = fit["statement"];
   for (std::size_t i = 0; i < std::min<std::size_t>(3, suspects.size()); ++i)
     if (suspects[i]["name"] == name)
-      return suspects[i]["decrease"] > 0.8 * fit["chi_square"].get<double>() &&
-             says(statement, name + ", which alone would take away");
+      return suspects[i]["share"] > 0.8 && says(statement, name + ", which alone would take away");
   return false;
 }
 

@@ -57,8 +57,8 @@ const json& parameter(const json& fit, const std::string& name) {
   return fit["parameters"][0];
 }
 
-/// Within three standard errors of the truth, which are no more than `width` of it. How often the
-/// intervals hold it: rig_model_test.
+/// Within three standard errors of the truth, which are no more than `width` of it; what the model
+/// may miss unseen is most of that. How often the intervals hold it: fit_coverage_test.
 void expect_found(const json& fit, const std::string& name, double truth, double width) {
   const json& own = parameter(fit, name);
   const double estimate = own["estimate"], error = own["standard_error"];
@@ -80,12 +80,12 @@ TEST(RelaxingPressFit, FindsModulusAndBranchThatAnElasticFitMisses) {
   EXPECT_TRUE(says(elastic["statement"], "\"relaxation\""));
 
   const json known = fitted(folder, "known", {"calibration.parameters=[\"modulus\"]", given});
-  expect_found(known, "modulus", modulus, 0.03);
+  expect_found(known, "modulus", modulus, 0.06);
   EXPECT_GT(known["chi_square_probability"], 1e-2) << known["statement"];
 
   const json sought =
       fitted(folder, "sought", {"calibration.parameters=[\"modulus\", \"relaxation\"]"});
-  expect_found(sought, "modulus", modulus, 0.04);
+  expect_found(sought, "modulus", modulus, 0.08);
   expect_found(sought, "relaxation_g1", share, 0.05);
   expect_found(sought, "relaxation_tau1", fading_time, 0.15);
   EXPECT_GT(sought["chi_square_probability"], 1e-2) << sought["statement"];

@@ -42,6 +42,18 @@ void add_goodness(ChapterData& chapter, const Fit& fit) {
   chapter["fair"] = probability >= 0.01 && probability <= 0.99;
 }
 
+/// Noise, and what the model misses beyond it.
+void add_errors(ChapterData& chapter, const Fit& fit) {
+  chapter["errors"] = fit.file.errors.has_value();
+  if (!fit.file.errors) return;
+  const calibration::ErrorsEntry& errors = *fit.file.errors;
+  chapter["noise_size"] = amount(errors.noise, "N");
+  chapter["over_told"] = if_known(errors.over_told, number(errors.over_told, 2));
+  chapter["misses"] = errors.misses();
+  chapter["missed"] = percent_magnitude(errors.misfit);
+  chapter["missed_most"] = percent_magnitude(errors.misfit_upper);
+}
+
 /// Residuals that keep their sign longer than chance would are the model's, not the noise's.
 Cell structure_cell(const calibration::ResidualStructure& structure) {
   return {structure.statement.empty() ? "–" : structure.statement,
@@ -89,6 +101,7 @@ Chapter quality_chapter(const Fit& fit, const std::string& prefix) {
   chapter["damping"] = fit.problem == "damping";
   chapter["made"] = how_it_was_made(fit);
   chapter["statement"] = as_shown(fit.file.statement);
+  add_errors(chapter, fit);
   add_goodness(chapter, fit);
   chapter["left_out"] = any_left_out(fit);
   chapter["travel"] = fit.file.rig.has_value();

@@ -157,12 +157,12 @@ Chapter measured_chapter(const Fit& fit, const std::string& prefix) {
 }
 
 bool is_assumed(const RigEntry& entry) {
-  return !entry.fitted && entry.given == false;
+  return entry.given == false;
 }
 
 /// Where the value of a quantity is from.
 Cell origin_cell(const RigEntry& entry) {
-  if (entry.fitted) return "fitted";
+  if (entry.fitted) return is_assumed(entry) ? Cell("fitted", "nobody has told it") : "fitted";
   if (!entry.given) return "held";
   return *entry.given ? Cell("given") : Cell("assumed", "default, not measured");
 }

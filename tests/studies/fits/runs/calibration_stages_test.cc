@@ -89,8 +89,9 @@ TEST_F(OfTwoContacts, BothAreNamedWhereNeitherHasAnAnswer) {
   }
 }
 
-/// Forces of the frictionless lattice itself, which a sticking one meets in another way.
-TEST_F(OfTwoContacts, TheOneThatMeetsTheDataFarBetterIsTaken) {
+/// Forces of the frictionless lattice itself, which a sticking one meets within 0.2 %: what so
+/// coarse a lattice is known to miss is more, and both contacts stay possible.
+TEST_F(OfTwoContacts, BothStayWhereTheLatticesOwnErrorHidesWhichItIs) {
   run({});
   EXPECT_EQ(result()["contact"]["taken"], "stick");
   const meshes::CsvTable data = meshes::read_csv(run_ / "fit_other_contact" / "fit_data.csv");
@@ -102,7 +103,10 @@ TEST_F(OfTwoContacts, TheOneThatMeetsTheDataFarBetterIsTaken) {
   csv.close();
   fs::remove_all(run_);
   run({});
-  EXPECT_TRUE(says(result()["statement"], "frictionless is taken, with which the residuals"));
-  EXPECT_EQ(result()["parameters"],
-            parse_json(run_ / "fit_other_contact" / "calibration.json")["parameters"]);
+  const auto own = result()["parameters"][0],
+             other = parse_json(run_ / "fit_other_contact" / "calibration.json")["parameters"][0];
+  EXPECT_EQ(result()["contact"]["other"], "frictionless");
+  EXPECT_LE(own["lower"], other["lower"]);
+  EXPECT_GE(own["upper"], other["upper"]);
+  EXPECT_TRUE(says(own["interval"].get<std::string>(), "both contacts"));
 }
