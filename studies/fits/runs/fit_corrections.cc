@@ -92,9 +92,13 @@ std::optional<FitSetup> with_other_contact(const FitSetup& fit) {
       fit.contact_known || !has_presses(fit.input))
     return std::nullopt;
   const ContactMode other = opposite(fit.loaded.config.press.protocol.contact);
-  return fit_setup(with_sets(fit.loaded, {"press.contact=" + std::string(meshes::name(other)),
-                                          "calibration.candidates=[]", "calibration.profile=[]"}),
-                   fit.files);
+  FitSetup rival =
+      fit_setup(with_sets(fit.loaded, {"press.contact=" + std::string(meshes::name(other)),
+                                       "calibration.candidates=[]", "calibration.profile=[]"}),
+                fit.files);
+  // Both run side by side: in one folder a fit would read the other contact's forces.
+  rival.input.place = "other_contact_" + rival.input.place;
+  return rival;
 }
 
 void add_other_contact(const FitFile& other, const std::string& taken, const std::string& name,

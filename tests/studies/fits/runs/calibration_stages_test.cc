@@ -12,6 +12,8 @@
 #include "meshes/tables/csv_table.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/files/json_entry.h"
+#include "studies/fits/runs/fit_corrections.h"
+#include "studies/fits/setup/configured_fit.h"
 #include "studies/jobs/cache.h"
 #include "tests/expectations.h"
 #include "tests/temporary_folder.h"
@@ -87,6 +89,20 @@ TEST_F(OfTwoContacts, BothAreNamedWhereNeitherHasAnAnswer) {
     const std::string words = error.what();
     EXPECT_TRUE(says(words, {"stick: not converged: beyond 3 mm", "frictionless: not converged"}));
   }
+}
+
+/// Both fits run at a time: one folder for both would give one contact the other's forces.
+TEST_F(OfTwoContacts, TheirContinuaHaveFoldersOfTheirOwn) {
+  const FitSetup fit =
+      fit_setup(load_config({{},
+                             {"calibration.problem=experiment",
+                              "calibration.data=[\"" + (folder_ / "press.csv").string() + "\"]",
+                              "calibration.parameters=[\"modulus\"]", "calibration.candidates=[]",
+                              "calibration.forward=continuum"},
+                             {}}));
+  const auto other = with_other_contact(fit);
+  ASSERT_TRUE(other);
+  EXPECT_NE(other->input.place, fit.input.place);
 }
 
 /// Forces of the frictionless lattice itself, which a sticking one meets within 0.2 %: what so
