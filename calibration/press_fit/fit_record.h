@@ -92,11 +92,13 @@ std::size_t rubber_parameters(const CurveFit& fit);
 double poissons_ratio_interval(const CurveFit& fit);
 
 /// Why constants of this fit must not be used as they are, a sentence each; none: it passed its own
-/// tests. It fails where the search did not end; where the model does not describe the data
-/// (chi-square improbable, below 1 %, or, where there is none, a curve missed by more than a tenth,
-/// relative_rms); where a parameter or Poisson's ratio ended at a bound;
-/// where the data leave a direction open, of E and G Poisson's ratio by more than open_ratio; and
-/// where the material is no rubber: rules of Material, E outside of 100 Pa to 10 GPa.
+/// tests. It fails where the search did not end; where the model does not describe the data (of
+/// measured presses more than a tenth of them is missed beyond noise; else chi-square is
+/// improbable, below 1 %, or, where there is none, a curve is missed by more than a tenth,
+/// relative_rms); where a parameter or Poisson's ratio ended at a bound; where a quantity of a
+/// machine is farther from what was known of it than three deviations of both; where the data leave
+/// a direction open, of E and G Poisson's ratio by more than open_ratio; and where the material is
+/// no rubber: rules of Material, E outside of meshes::implausible_modulus.
 std::vector<std::string> failed_tests(const FitRecord& record);
 
 /// calibration.json of the README, SI. Written atomically. Throws std::runtime_error when the file
