@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "calibration/statistics/curve_checks.h"
 #include "calibration/statistics/curve_fit.h"
@@ -186,6 +187,14 @@ std::vector<calibration::ErrorComponent> components_of(const FitInput& input,
   return components;
 }
 
+/// Of all values, per curve.
+std::vector<VectorXd> by_curve(const FitInput& input, const VectorXd& all) {
+  std::vector<VectorXd> lists;
+  for (std::size_t i = 0; i < input.curves.size(); ++i)
+    lists.emplace_back(all.segment(first_value(input.curves, i), Index(input.curves[i].y.size())));
+  return lists;
+}
+
 std::vector<Curve> with_sigma(std::vector<Curve> curves, const VectorXd& sigma) {
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const VectorXd own = sigma.segment(first_value(curves, i), Index(curves[i].y.size()));
@@ -200,7 +209,7 @@ struct Weighed {
   calibration::CurveFitOptions options;
   CurveFit fit;
   calibration::ValueErrors errors;
-  std::vector<calibration::ErrorComponent> components;
+  std::vector<OddValue> odd;
 };
 
 /// What nobody has told of a machine is usually as small as its prior says, but who forgot to tare
@@ -234,15 +243,15 @@ std::vector<OddValue> odd_of(const std::vector<Curve>& curves, const VectorXd& l
   return found;
 }
 
-/// From where `first` ended, again and again until errors and estimates stay. Of what is told of
-/// noise `deviations` are the sizes; of values that are odd they become what these are off by.
+/// From where `first` ended, again and again until errors and estimates stay. `plain` are the
+/// noise's deviations, told or alike; those of values that are odd become what these are off by.
 Weighed weighed(const FitInput& input, const Models& models, const CurveFit& first,
-                VectorXd& deviations, bool told, std::vector<OddValue>& odd_values) {
+                const VectorXd& plain, bool told) {
   constexpr int rounds = 12;
   constexpr double close = 0.05;  // of a standard error
   const std::vector<Curve> curves = curves_of(input);
   Weighed result{curves, input.options, first, {}, {}};
-  const VectorXd plain = deviations;
+  VectorXd deviations = plain;
   for (int round = 0; round < rounds; ++round) {
     Linearised at = linearised(input, models, result.fit.estimates);
     put_priors(result.options.free, input, result.fit.estimates, round);
@@ -251,11 +260,10 @@ Weighed weighed(const FitInput& input, const Models& models, const CurveFit& fir
     at.fit.noise_told = told;
     if (!told) at.fit.least_noise = least_told * at.force.maxCoeff() / plain.minCoeff();
     at.fit.model_covariance = input.options.model_covariance;
-    result.components = components_of(input, at);
+    std::vector<calibration::ErrorComponent> components = components_of(input, at);
     // What scatters is no misfit: touches that have taken it up give it back first.
-    if (round == 0 && result.components.size() > 1)
-      result.components.erase(result.components.begin());
-    result.errors = calibration::value_errors(at.fit, result.components);
+    if (round == 0 && components.size() > 1) components.erase(components.begin());
+    result.errors = calibration::value_errors(at.fit, components);
     const VectorXd sigma = result.errors.noise * deviations;
     result.curves = with_sigma(curves, sigma);
     result.options.model_covariance = result.errors.covariance_of_values;
@@ -270,12 +278,11 @@ Weighed weighed(const FitInput& input, const Models& models, const CurveFit& fir
     // What is left is noise.
     VectorXd left = at.fit.residuals - at.fit.jacobian * (result.errors.mean - at.fit.estimates);
     for (const VectorXd& part : result.errors.parts) left -= part;
-    const std::vector<OddValue> found =
-        odd_of(curves, left.cwiseQuotient(result.errors.noise * plain));
-    const bool changed = found != odd_values;
-    odd_values = found;
+    const std::vector<OddValue> known =
+        std::exchange(result.odd, odd_of(curves, left.cwiseQuotient(result.errors.noise * plain)));
+    const bool changed = result.odd != known;
     deviations = plain;
-    for (const OddValue& each : odd_values) {
+    for (const OddValue& each : result.odd) {
       const Index row = first_value(curves, each.curve) + Index(each.place);
       deviations(row) = std::abs(left(row)) / result.errors.noise;
     }
@@ -314,18 +321,17 @@ void put_chi_square(CurveFit& fit, const FitInput& input, const VectorXd& told) 
   fit.whitened_residuals.clear();
   fit.birge_ratio = 1.0;
   if (input.curves.front().sigma.empty()) return;
-  const Index values = told.size();
   const MatrixXd& known = input.options.model_covariance;
-  const auto eigen = calibration::decomposed_covariance(
-      known.size() > 0 ? known : MatrixXd::Zero(values, values), told);
-  const VectorXd whitened = eigen.operatorInverseSqrt() * calibration::stacked(fit.residuals);
+  VectorXd whitened = calibration::stacked(fit.residuals);
+  if (known.size() > 0)
+    whitened = calibration::decomposed_covariance(known, told).operatorInverseSqrt() * whitened;
+  else
+    whitened = whitened.cwiseQuotient(told);
   double squares = whitened.squaredNorm();
   for (std::size_t j = 0; j < input.options.free.size(); ++j)
     if (const auto& prior = input.options.free[j].prior)
       squares += std::pow((fit.estimates(Index(j)) - prior->mean) / prior->deviation, 2);
-  for (std::size_t i = 0; i < input.curves.size(); ++i)
-    fit.whitened_residuals.emplace_back(
-        whitened.segment(first_value(input.curves, i), fit.residuals[i].size()));
+  fit.whitened_residuals = by_curve(input, whitened);
   fit.chi_square = squares;
   if (fit.degrees_of_freedom > 0)
     fit.chi_square_probability = calibration::chi_square_above(squares, fit.degrees_of_freedom);
@@ -390,9 +396,9 @@ void add_errors_and_intervals(const FitInput& input, const Models& models,
   if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return;
   const bool is_told = !input.curves.front().sigma.empty();
   const VectorXd told = told_deviations(input, record.fit);
-  VectorXd deviations = told;
-  const Weighed by = weighed(input, models, record.fit, deviations, is_told, record.odd);
+  const Weighed by = weighed(input, models, record.fit, told, is_told);
   record.fit = by.fit;
+  record.odd = by.odd;
   record.repeats = repeats_in(input, by_noise_alone(input, models, by, told));
   put_posterior(record.fit, by.errors, input.options.free);
   put_chi_square(record.fit, input, told);
@@ -400,10 +406,8 @@ void add_errors_and_intervals(const FitInput& input, const Models& models,
   if (scatter(record.repeats)) {
     record.model_error +=
         std::string(record.model_error.empty() ? "" : " and ") + "the scatter between repeats";
-    const VectorXd left = calibration::stacked(by.fit.residuals) - by.errors.parts.back();
-    for (std::size_t i = 0; i < input.curves.size(); ++i)
-      record.own_residuals.emplace_back(
-          left.segment(first_value(input.curves, i), Index(input.curves[i].y.size())));
+    record.own_residuals =
+        by_curve(input, calibration::stacked(by.fit.residuals) - by.errors.parts.back());
   }
   if (input.profile_intervals && record.fit.converged) add_intervals(models, by, record);
 }

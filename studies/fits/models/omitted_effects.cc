@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "calibration/press_fit/model_error.h"
-#include "calibration/statistics/fit_statistics.h"
 #include "studies/fits/models/fit_rig.h"
 #include "studies/fits/models/fit_trials.h"
 
@@ -12,8 +11,6 @@ namespace fingertip::studies::inline fits::inline models {
 
 using calibration::Curve;
 using calibration::OmittedEffect;
-using calibration::rig_members;
-using calibration::rig_parameters;
 using calibration::ScoreTest;
 using Eigen::Index;
 using Eigen::VectorXd;
