@@ -13,7 +13,11 @@
 
 #include "calibration/files/words.h"
 #include "calibration/material/relaxation_branches.h"
+#include "calibration/material_tests/law_fit.h"
+#include "calibration/material_tests/law_posterior.h"
+#include "calibration/material_tests/zeroed_model.h"
 #include "calibration/statistics/curve_checks.h"
+#include "calibration/statistics/fit_statistics.h"
 #include "meshes/rubber/plausible.h"
 
 namespace fingertip::calibration::inline material_tests {
@@ -23,19 +27,17 @@ using Eigen::Index;
 namespace {
 
 /// Two coefficients of a higher correlation are one to the tests.
-constexpr double collinear = 0.995;
-/// Residuals of so unlikely an order show something that the law misses.
-constexpr double unlikely_order = 0.05;
-/// A test missed by more than this share, by relative_rms, is not described: specimens, batches and
-/// machines let tests of one rubber differ by some 10 %, and a law is no more than a law.
-constexpr double largest_misfit_of_law = 0.15;
-/// What a test does on one side of rest counts by itself where it goes so far, of all its strain.
-constexpr double min_side = 0.1;
-/// Up to this logarithmic strain rubbers are neo-Hookean enough for a modulus [1], and moduli that
-/// differ by more than this factor contradict each other.
-constexpr double small_strain = 0.3, contradiction = 1.3;
-/// Likewise tests of one way of deforming.
-constexpr double scatter = 1.15;
+constexpr double collinear = 0.99;
+/// A test missed by more than this share of its stresses (rms) is not described, a law being no
+/// more than a law; of cycles with noise and all. A smaller one is not worth a word.
+constexpr double largest_misfit = 0.15, little_misfit = 0.003;
+/// Stresses of two tests of one rubber, whose areas and batches differ, are no further apart than
+/// by this factor: 3.5 deviations of two that are known to 3 %.
+constexpr double largest_ratio = 1.15;
+/// Beyond its largest stress that of a rubber does not fall, by this share.
+constexpr double fall = 0.05;
+/// Up to this logarithmic strain rubbers are neo-Hookean enough for a modulus [1].
+constexpr double small_strain = 0.3;
 /// A specimen was slack where it bore less than this share of what a taut one would, and its
 /// curve asks for a later origin by so many standard errors.
 constexpr double bears_nothing = 0.2, surely = 5.0;
@@ -53,12 +55,16 @@ std::string size_text(double share) {
   return rounded(100.0 * share, 3) + " %";
 }
 
+bool is_zero(MaterialParameter parameter) {
+  return parameter == MaterialParameter::stress_zero || parameter == MaterialParameter::strain_zero;
+}
+
 void add_open_coefficients(LawFit& result) {
   const CurveFit& fit = result.fit;
   auto& told = result.contradictions;
   if (!fit.converged) fail(result, "the search ended before its minimum");
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-    if (fit.at_bound[i])
+    if (fit.at_bound[i] && !is_zero(fit.parameters[i]))
       fail(result, std::string(name(fit.parameters[i])) +
                        " ended at its bound: the tests ask for another law, or for fewer terms");
   for (const Direction& direction : fit.unidentifiable) fail(result, direction.statement);
@@ -88,50 +94,6 @@ void add_instabilities(LawFit& result, const LawFitOptions& options) {
   else if (result.unstable_in_press)
     fail(result,
          instability_text(*result.unstable_in_press, "within 0.5 to 2, which a press asks for"));
-}
-
-/// Largest logarithmic strain [1].
-double strain_size(TestKind kind, double deformation) {
-  double size = 0.0;
-  for (const double stretch : principal_stretches(kind, deformation))
-    size = std::max(size, std::abs(std::log(stretch)));
-  return size;
-}
-
-/// Points of a test that deform the rubber in one way.
-struct TestPart {
-  std::string name, way;  ///< of the test, and its side where it has both; "biaxial tension"
-  DeformationMode mode = DeformationMode::shear;
-  std::vector<std::size_t> points;
-  double strain = 0.0;  ///< the largest
-};
-
-std::string way_of(TestKind kind, DeformationMode mode) {
-  if (kind == TestKind::planar) return "planar tension";
-  if (kind != TestKind::equibiaxial) return std::string(name(mode));
-  return mode == DeformationMode::compression ? "biaxial tension" : "biaxial compression";
-}
-
-std::vector<TestPart> parts_of(const MaterialTest& test) {
-  std::map<DeformationMode, TestPart> sides;
-  for (std::size_t i = 0; i < test.deformation.size(); ++i) {
-    const DeformationMode mode = mode_of(test.kind, test.deformation[i]);
-    TestPart& side = sides[mode];
-    side.mode = mode;
-    side.way = way_of(test.kind, mode);
-    side.name = test.name + " in " + side.way;
-    side.points.push_back(i);
-    side.strain = std::max(side.strain, strain_size(test.kind, test.deformation[i]));
-  }
-  std::vector<TestPart> parts;
-  for (auto& [mode, side] : sides) parts.push_back(std::move(side));
-  std::ranges::stable_sort(parts, std::greater(), &TestPart::strain);
-  if (parts.size() == 2 && parts[1].strain < min_side * parts[0].strain) {
-    parts[0].points.insert(parts[0].points.end(), parts[1].points.begin(), parts[1].points.end());
-    parts.pop_back();
-  }
-  if (parts.size() == 1) parts[0].name = test.name;
-  return parts;
 }
 
 /// Least squares of a factor on `unit` against `stress`.
@@ -216,125 +178,220 @@ void add_slack(LawFit& result, const std::vector<MaterialTest>& tests) {
   }
 }
 
-/// The modulus of small strain, by neo-Hooke, that points of tests ask for.
-class SmallStrainModulus {
- public:
-  void add(const MaterialTest& test, std::size_t point) {
-    const double unit = (test.constraint.empty() ? 1.0 : test.constraint[point]) *
-                        test_stress({1.0, {}}, test.kind, test.measure, test.deformation[point]);
-    product_ += unit * test.stress[point];
-    square_ += unit * unit;
+/// Where the stress vanishes by a line through the rows of least stress, a third of the largest and
+/// below; none where so few rows tell no line.
+std::optional<double> where_stress_vanishes(const MaterialTest& test) {
+  constexpr double low_share = 1.0 / 3.0;
+  const double most = low_share * largest_stress(test);
+  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+  for (std::size_t i = 0; i < test.stress.size(); ++i) {
+    const double x = test.deformation[i] - rest_of(test.kind), y = test.stress[i];
+    if (std::abs(y) > most) continue;
+    n += 1.0, sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
-  bool known() const { return square_ > 0.0; }
-  double value() const { return product_ / square_; }
-
- private:
-  double product_ = 0.0, square_ = 0.0;
-};
-
-/// "a and b contradict": names and moduli of these, joined.
-struct Joined {
-  std::string names, moduli;
-};
-Joined joined(const std::map<std::string, SmallStrainModulus>& moduli) {
-  Joined text;
-  for (auto each = moduli.begin(); each != moduli.end(); ++each) {
-    const char* link = each == moduli.begin()            ? ""
-                       : std::next(each) == moduli.end() ? " and "
-                                                         : ", ";
-    text.names += link + each->first;
-    text.moduli += link + rounded(each->second.value(), 3) + " Pa in " + each->first;
-  }
-  return text;
+  const double determinant = n * sxx - sx * sx, slope = (n * sxy - sx * sy) / determinant;
+  if (n < 3.0 || !(determinant > 0.0) || slope == 0.0) return {};
+  return sx / n - sy / n / slope;
 }
 
-/// Largest over least.
-double ratio_of(const std::map<std::string, SmallStrainModulus>& moduli) {
-  const auto [least, most] =
-      std::ranges::minmax_element(moduli, {}, [](const auto& each) { return each.second.value(); });
-  return most->second.value() / least->second.value();
+/// Of a test whose rows begin away from rest, and whose stress vanishes nearer to the first of them
+/// than to rest: why it is no loading from rest; "": it may be.
+std::string begins_without_stress(const MaterialTest& test) {
+  constexpr double far = 0.05, nearer = 0.6;
+  if (test.course != TestCourse::slow || test.kind == TestKind::volumetric ||
+      test.strain_zero_sought)
+    return "";
+  const double rest = rest_of(test.kind);
+  const auto away = [&](double deformation) { return std::abs(deformation - rest); };
+  const double first = *std::ranges::min_element(test.deformation, {}, away);
+  const auto vanishes = where_stress_vanishes(test);
+  if (!vanishes || away(first) < far * reach_of(test) || *vanishes / (first - rest) < nearer)
+    return "";
+  return test.name + " does not go through rest: its stress vanishes at the deformation " +
+         rounded(rest + *vanishes, 4) + ", where its rows begin, and not at " + rounded(rest, 1) +
+         ". An unloading of a specimen that has kept a set, slack, or a wrong zero of the strain: "
+         "give the loading from rest on, or write zero = \"fit\" in its strain";
 }
 
-/// Of tests that differ: whether the modulus grows with their rates, and by how many times these
-/// differ; 1: no.
+/// Where the stress of a slow test has its largest mean over a tenth of its rows, if it falls
+/// beyond.
+std::optional<double> falls_beyond(const MaterialTest& test) {
+  if (test.kind == TestKind::volumetric || test.course != TestCourse::slow) return {};
+  const double rest = rest_of(test.kind);
+  std::vector<std::pair<double, double>> rows;  // strain from rest, stress, away from rest
+  for (std::size_t i = 0; i < test.stress.size(); ++i)
+    rows.emplace_back(std::abs(test.deformation[i] - rest), test.stress[i]);
+  // Of both sides the further strained one.
+  const bool pulled =
+      std::abs(test.deformation.back() - rest) > std::abs(test.deformation.front() - rest);
+  std::erase_if(rows, [&, i = std::size_t{0}](const auto&) mutable {
+    return (test.deformation[i++] > rest) != pulled;
+  });
+  if (!pulled) std::ranges::reverse(rows);
+  const std::size_t few = std::max<std::size_t>(3, rows.size() / 10);
+  if (rows.size() < 3 * few) return {};
+  double noise = 0.0;  // by second differences, which a smooth curve has hardly any of
+  for (std::size_t i = 2; i < rows.size(); ++i)
+    noise += std::pow(rows[i].second - 2.0 * rows[i - 1].second + rows[i - 2].second, 2) /
+             (6.0 * double(rows.size() - 2));
+  const double surely_falls = 4.0 * std::sqrt(2.0 * noise / double(few));
+  double largest = 0.0, last = 0.0, where = 0.0;
+  for (std::size_t i = 0; i + few <= rows.size(); ++i) {
+    double strain = 0.0, stress = 0.0;
+    for (std::size_t k = i; k < i + few; ++k)
+      strain += rows[k].first / double(few), stress += rows[k].second / double(few);
+    last = std::abs(stress);
+    if (last > largest) largest = last, where = strain;
+  }
+  return largest - last > std::max(fall * largest, surely_falls) ? std::optional(where)
+                                                                 : std::nullopt;
+}
+
+double mean_factor(const std::vector<PartErrors>& parts, const PartErrors* without) {
+  double sum = 0.0, count = 0.0;
+  for (const PartErrors& each : parts)
+    if (&each != without) sum += each.factor, count += 1.0;
+  return sum / count;
+}
+
+/// What makes a part of a test so many times stiffer than the others.
+struct FactorCause {
+  const char* question;
+  bool (*is)(const TestPart& part, double times);
+};
+bool shears(const TestPart& part) {
+  return part.way == name(TestKind::simple_shear);
+}
+bool is_column(const TestPart& part) {
+  return part.way == name(DeformationMode::compression);
+}
+constexpr FactorCause factor_causes[] = {
+    {"Is its strain displacement over height, which is twice the tensor's? ",
+     [](const TestPart& part, double times) {
+       return shears(part) && (times < 0.6 || times > 1.7);
+     }},
+    {"Do its plates hold the ends (friction), so that the column bulges? Give diameter and height "
+     "(plates). ",
+     [](const TestPart& part, double times) { return is_column(part) && times > 1.0; }},
+    {"Is it planar, its width held, or pulled both ways (equibiaxial)? ",
+     [](const TestPart& part, double times) {
+       return part.way == "planar tension" && times > 1.2;
+     }},
+    {"Is it compressible (a foam)? ", [](const TestPart& part, double times) {
+       return shears(part) ? times > 1.0 : part.way != "planar tension" && times < 1.0;
+     }}};
+
+/// Of parts that differ: whether their factors grow with the rates of their tests, and by how many
+/// times these differ; 1: no.
 double growth_with_rate(const std::vector<MaterialTest>& tests,
-                        const std::map<std::string, SmallStrainModulus>& moduli) {
+                        const std::vector<PartErrors>& parts) {
   std::vector<std::pair<double, double>> known;
-  for (const MaterialTest& test : tests)
-    if (const auto found = moduli.find(test.name); found != moduli.end() && test.rate)
-      known.emplace_back(*test.rate, found->second.value());
+  for (const PartErrors& each : parts)
+    if (const auto& rate = tests[each.test].rate) known.emplace_back(*rate, each.factor);
   std::ranges::sort(known);
-  const bool grows = known.size() == moduli.size() && known.size() > 1 &&
+  const bool grows = known.size() == parts.size() &&
                      std::ranges::is_sorted(known, {}, &std::pair<double, double>::second);
   return grows ? known.back().first / known.front().first : 1.0;
 }
 
-std::string specimens_sentence(const std::vector<MaterialTest>& tests, const std::string& way,
-                               const std::map<std::string, SmallStrainModulus>& moduli,
-                               double strain) {
+/// Tests, or sides of one, whose stresses no one rubber has.
+void add_factors(LawFit& result, const std::vector<MaterialTest>& tests) {
   constexpr double other_rate = 3.0;
-  const Joined text = joined(moduli);
-  const double rates = growth_with_rate(tests, moduli);
-  const std::string differ = "tests in " + way + " differ: up to the logarithmic strain " +
-                             rounded(strain, 2) + " they ask for G = " + text.moduli + ". ";
+  const auto off = [](const PartErrors& each) { return std::abs(std::log(each.factor)); };
+  const std::vector<PartErrors>& parts = result.parts;
+  if (parts.size() < 2) return;
+  const auto [least, most] = std::ranges::minmax_element(parts, {}, &PartErrors::factor);
+  if (!(most->factor > largest_ratio * least->factor)) return;
+  const PartErrors* worst = &*std::ranges::max_element(parts, {}, off);
+  const auto times_of = [&](const PartErrors& each) {
+    return each.factor / mean_factor(parts, &each);
+  };
+  // Of two either may be the one: that which has a cause, else the second.
+  std::vector<const PartErrors*> perhaps = {worst};
+  if (parts.size() == 2) worst = &parts[1], perhaps = {&parts[1], &parts[0]};
+  std::string question;
+  for (const FactorCause& cause : factor_causes)
+    for (const PartErrors* each : perhaps)
+      if (question.empty() && cause.is(each->part, times_of(*each)))
+        question = cause.question, worst = each;
+  std::string moduli;
+  for (const PartErrors& each : parts) {
+    const char* link = &each == &parts.front() ? "" : &each == &parts.back() ? " and " : ", ";
+    moduli +=
+        link + rounded(result.law.shear_modulus * each.factor, 3) + " Pa in " + each.part.name;
+  }
+  const double times = times_of(*worst), rates = growth_with_rate(tests, parts);
+  const bool one_way = std::ranges::all_of(
+      parts, [&](const PartErrors& each) { return each.part.way == worst->part.way; });
+  std::string sentence =
+      "tests contradict each other: " + worst->part.name + " bears " + rounded(times, 3) +
+      " times the stress that the others ask of it by this law, G = " + moduli + ". ";
   if (rates > other_rate)
-    return differ + "Their rates differ " + rounded(rates, 2) +
-           " times, and G grows with them, so that the rubber likely relaxes: fit tests of one "
-           "rate, or tests in time (kind = \"relaxation\" or \"cycles\") with a law +prony";
-  return differ +
-         "Specimens that scatter are one test: path = [...] of all of them, whose mean is fitted "
-         "and whose scatter the intervals have. Else look at areas, lengths and batches";
+    sentence +=
+        "Their rates differ " + rounded(rates, 2) +
+        " times, and G grows with them, so that the rubber likely relaxes: fit tests of one "
+        "rate, or tests in time (kind = \"relaxation\" or \"cycles\") with a law +prony";
+  else if (one_way)
+    sentence +=
+        "Specimens that scatter are one test: path = [...] of all of them, whose mean is "
+        "fitted and whose scatter the intervals have. Else look at areas, lengths and "
+        "batches";
+  else
+    sentence += question + "Else look at areas, lengths, zeros, and specimens of another batch";
+  fail(result, sentence);
 }
 
-/// Where moduli of small strain, by neo-Hooke, differ between tests of one way of deforming, and
-/// with the way.
-struct ModuliThatDiffer {
-  std::vector<std::string> specimens, ways;
-};
-ModuliThatDiffer moduli_that_differ(const std::vector<MaterialTest>& tests) {
-  const auto tells = [](const MaterialTest& test) {
-    return test.kind != TestKind::volumetric && test.course == TestCourse::slow;
-  };
-  double common = small_strain;
-  for (const MaterialTest& test : tests)
-    for (const TestPart& part : parts_of(test))
-      if (tells(test)) common = std::min(common, part.strain);
-  std::map<std::string, SmallStrainModulus> ways;
-  std::map<std::string, std::map<std::string, SmallStrainModulus>> specimens;
-  for (const MaterialTest& test : tests)
-    for (const TestPart& part : parts_of(test))
-      for (const std::size_t i : part.points) {
-        if (!tells(test) || strain_size(test.kind, test.deformation[i]) > 1.001 * common) continue;
-        ways[part.way].add(test, i);
-        specimens[part.way][test.name].add(test, i);
-      }
-  const auto unknown = [](const auto& each) { return !each.second.known(); };
-  ModuliThatDiffer found;
-  for (auto& [way, moduli] : specimens) {
-    std::erase_if(moduli, unknown);
-    if (moduli.size() > 1 && ratio_of(moduli) > scatter)
-      found.specimens.push_back(specimens_sentence(tests, way, moduli, common));
+/// Zeros that are further from where they ought to be than a laboratory makes them.
+void add_zeros(LawFit& result, const std::vector<MaterialTest>& tests) {
+  constexpr double far = 3.0;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const MaterialTest& test = tests[t];
+    if (const auto strain = falls_beyond(test))
+      fail(result,
+           "the stress of " + test.name + " falls beyond the strain " + rounded(*strain, 2) +
+               ": does the specimen slide out of its grips, yield or tear? Leave those rows "
+               "out");
+    if (const std::string sentence = begins_without_stress(test); !sentence.empty()) {
+      fail(result, sentence);
+      continue;
+    }
+    const auto told = [&](const std::optional<Index>& place, bool sought, double usual) {
+      return place && !sought &&
+             std::abs(result.fit.estimates(*place)) >
+                 far * std::hypot(usual, result.fit.standard_errors(*place));
+    };
+    const std::string begin = test.name + " does not go through rest: the law asks for ";
+    const double most = largest_stress(test);
+    if (const auto place = result.zeros[t].stress;
+        told(place, test.stress_zero_sought, usual_zero * most))
+      fail(result,
+           begin + rounded(result.fit.estimates(*place), 3) + " Pa there, within " +
+               rounded(normal_95() * result.fit.standard_errors(*place), 2) + " Pa, " +
+               percent(std::abs(result.fit.estimates(*place)) / most) +
+               " of the largest. The load cell's zero, or a set or slack of the specimen: "
+               "write zero = \"fit\" in its stress, or in its strain, or give rows at rest");
+    if (const auto place = result.zeros[t].strain;
+        told(place, test.strain_zero_sought, usual_zero * reach_of(test)))
+      fail(result,
+           begin + "a stress that vanishes at the deformation " +
+               rounded(rest_of(test.kind) + result.fit.estimates(*place), 4) + " and not at " +
+               rounded(rest_of(test.kind), 1) +
+               ". An unloading of a specimen that has kept a set, slack, or a wrong zero of the "
+               "strain: give the loading from rest on, or write zero = \"fit\" in its strain");
   }
-  std::erase_if(ways, unknown);
-  if (ways.size() < 2 || ratio_of(ways) <= contradiction) return found;
-  const Joined text = joined(ways);
-  found.ways.push_back(text.names + " contradict each other: up to the logarithmic strain " +
-                       rounded(common, 2) + " they ask for G = " + text.moduli +
-                       ", and a rubber that keeps its volume has one. Is it compressible (a foam)? "
-                       "Else look at areas, slack, plates that stick, and specimens of another "
-                       "batch");
-  return found;
 }
 
 void add_misfits(LawFit& result, const std::vector<MaterialTest>& tests) {
-  for (const TestMisfit& misfit : result.fitted)
-    if (misfit.structure.probability < unlikely_order)
-      result.contradictions.push_back("residuals of " + misfit.name + " (rms " +
-                                      size_text(misfit.rms_relative) +
-                                      "): " + misfit.structure.statement);
-  if (result.fit.chi_square_probability && result.fit.birge_ratio == 1.0) return;
-  // Why a test is missed comes behind.
-  const std::size_t failed = result.failed.size();
+  for (const PartErrors& each : result.parts) {
+    if (each.misfit > largest_misfit)
+      fail(result, "the law does not describe the data: " + each.part.name + " is missed by " +
+                       size_text(each.misfit) + " (rms), noise taken off");
+    else if (each.misfit_seen && each.misfit > little_misfit)
+      result.contradictions.push_back("the model misses something of " + each.part.name + ": " +
+                                      size_text(each.misfit) + " (rms), noise taken off");
+  }
+  if (!result.parts.empty() || (result.fit.chi_square_probability && result.fit.birge_ratio == 1.0))
+    return;
   for (std::size_t t = 0; t < tests.size(); ++t)
     for (const TestPart& part : parts_of(tests[t])) {
       Eigen::VectorXd measured(Index(part.points.size())), residuals = measured;
@@ -343,15 +400,9 @@ void add_misfits(LawFit& result, const std::vector<MaterialTest>& tests) {
         measured(i) = tests[t].stress[p];
         residuals(i) = measured(i) - result.fitted[t].stress[p];
       }
-      if (const auto sentence =
-              missed("the law", part.name, residuals, measured, largest_misfit_of_law))
+      if (const auto sentence = missed("the law", part.name, residuals, measured, largest_misfit))
         fail(result, *sentence);
     }
-  const ModuliThatDiffer moduli = moduli_that_differ(tests);
-  if (result.choice.branches == 0)
-    for (const std::string& sentence : moduli.specimens) fail(result, sentence);
-  if (result.failed.size() == failed) return;
-  for (const std::string& sentence : moduli.ways) fail(result, sentence);
 }
 
 }  // namespace
@@ -372,8 +423,13 @@ void add_contradictions(LawFit& result, const std::vector<MaterialTest>& tests,
   // Of a rubber that keeps its volume.
   const std::string modulus = meshes::implausible_modulus(3.0 * result.law.shear_modulus);
   if (!modulus.empty()) fail(result, modulus);
+  if (const ModulusOfLaws g = modulus_of(result); is_open("Pa", g.value, g.lower, g.upper))
+    fail(result, "G at rest is not determined by these tests: its 95 % interval is " +
+                     rounded(g.lower, 3) + " to " + rounded(g.upper, 3) + " Pa");
   add_slack(result, tests);
   add_misfits(result, tests);
+  add_factors(result, tests);
+  add_zeros(result, tests);
 }
 
 std::vector<UntestedMode> untested_modes(const LawFit& fit, const std::vector<MaterialTest>& tests,

@@ -9,9 +9,9 @@
 
 #include "calibration/files/words.h"
 #include "calibration/material_tests/law_contradictions.h"
+#include "calibration/material_tests/law_posterior.h"
 #include "calibration/material_tests/law_starts.h"
 #include "calibration/material_tests/relaxation_starts.h"
-#include "calibration/material_tests/strain_grid.h"
 #include "calibration/material_tests/zeroed_model.h"
 #include "calibration/statistics/curve_fit.h"
 #include "calibration/statistics/fit_statistics.h"
@@ -106,9 +106,10 @@ double corrected_criterion(const CurveFit& fit, Index points, bool has_sigma) {
 
 }  // namespace
 
-TestMisfit predict(const LawFit& fit, const MaterialTest& test, TestWeights weights) {
-  const std::vector<meshes::Violation> broken = test.violations();
-  if (!broken.empty()) throw InvalidInput(broken);
+namespace {
+
+/// As `predict`, of a test that may begin beyond rest.
+TestMisfit misfit_of(const LawFit& fit, const MaterialTest& test, TestWeights weights) {
   const std::vector<double> scales = scales_of(test, weights);
   TestMisfit misfit;
   misfit.name = test.name;
@@ -150,6 +151,14 @@ TestMisfit predict(const LawFit& fit, const MaterialTest& test, TestWeights weig
   return misfit;
 }
 
+}  // namespace
+
+TestMisfit predict(const LawFit& fit, const MaterialTest& test, TestWeights weights) {
+  const std::vector<meshes::Violation> broken = test.violations();
+  if (!broken.empty()) throw InvalidInput(broken);
+  return misfit_of(fit, test, weights);
+}
+
 namespace {
 
 /// Fits by their names, from which others begin.
@@ -184,28 +193,6 @@ CurveFitOptions starts_of(const std::vector<MaterialTest>& tests,
   return fit;
 }
 
-/// What is off in all values of a test together, over their scales: a factor on a mean of specimens
-/// that scatter, and the zero that was taken off. Empty where there is none.
-Eigen::MatrixXd shared_errors(const std::vector<MaterialTest>& tests,
-                              const std::vector<std::vector<double>>& scales,
-                              const std::vector<Curve>& curves) {
-  const auto exact = [](const MaterialTest& test) {
-    return test.specimens.size() < 2 && test.stress_zero_error == 0.0;
-  };
-  if (std::ranges::all_of(tests, exact)) return {};
-  const Index rows = first_value(curves, curves.size());
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(rows, rows);
-  for (std::size_t t = 0; t < tests.size(); ++t) {
-    const VectorXd factor = error_of_mean(tests[t].specimens) * values_of(curves[t]),
-                   zero = tests[t].stress_zero_error *
-                          VectorXd::Map(scales[t].data(), Index(scales[t].size())).cwiseInverse();
-    const Index first = first_value(curves, t);
-    covariance.block(first, first, factor.size(), factor.size()) =
-        factor * factor.transpose() + zero * zero.transpose();
-  }
-  return covariance;
-}
-
 void check_points(Index points, Index coefficients, const LawChoice& choice) {
   if (points > coefficients) return;
   throw InvalidInput({"tests", std::to_string(points) + " points",
@@ -222,24 +209,24 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
   if (choice.branches > 0 && !result.times)
     throw InvalidInput({"tests", name(choice), "a relaxation shows in tests with times alone",
                         "give a relaxation test or cycles, or a law without prony"});
-  std::vector<std::vector<double>> scales;
-  std::vector<Curve> curves;
+  LawCurves data{tests, {}, {}};
   Index points = 0;
   for (const MaterialTest& test : tests) {
-    scales.push_back(scales_of(test, options.weights));
-    curves.push_back(scaled_curve(test, scales.back()));
+    data.scales.push_back(scales_of(test, options.weights));
+    data.curves.push_back(scaled_curve(test, data.scales.back()));
     points += Index(test.stress.size());
   }
-  CurveFitOptions fit = starts_of(tests, scales, choice, options, done);
-  const std::vector<ZeroPlaces> zeros = add_zeros(tests, fit);
-  fit.model_covariance = shared_errors(tests, scales, curves);
+  const std::vector<Curve>& curves = data.curves;
+  const CurveFitOptions law = starts_of(tests, data.scales, choice, options, done);
+  CurveFitOptions fit = law;
+  result.zeros = add_zeros(tests, false, fit);
   const std::vector<MaterialParameter> parameters = parameters_in(fit);
   check_points(points, Index(parameters.size()), choice);
   std::vector<std::unique_ptr<ZeroedModel>> models;
   std::vector<ForwardModel*> addresses;
   for (std::size_t t = 0; t < tests.size(); ++t) {
-    models.push_back(
-        std::make_unique<ZeroedModel>(tests[t], scales[t], choice, parameters, zeros[t]));
+    models.push_back(std::make_unique<ZeroedModel>(tests[t], data.scales[t], choice, parameters,
+                                                   result.zeros[t]));
     addresses.push_back(models.back().get());
   }
   result.choice = choice;
@@ -250,6 +237,9 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
     fit.start_once();
     result.fit = fit_curves(curves, addresses, fit);
   }
+  result.aicc = corrected_criterion(result.fit, points, !curves.front().sigma.empty());
+  const auto is_slow = [](const MaterialTest& test) { return test.course == TestCourse::slow; };
+  if (std::ranges::all_of(tests, is_slow)) add_posterior(data, law, result);
   // Squares of the number of points, which a ranking would keep for every law.
   result.fit.whitening.resize(0, 0);
   result.fit.influence.resize(0, 0);
@@ -258,22 +248,30 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
   const auto bulk = std::ranges::find(parameters, MaterialParameter::bulk_modulus);
   if (bulk != parameters.end())
     result.bulk_modulus = result.fit.estimates(Index(bulk - parameters.begin()));
-  result.aicc = corrected_criterion(result.fit, points, !curves.front().sigma.empty());
-  result.tested = stretch_range(tests);
-  std::vector<MaterialTest> zeroed;
+  // A zero that nobody told is an error of the test, not how far it went.
+  std::vector<MaterialTest> taut = tests;
+  const auto found = [&](const std::optional<Index>& place) {
+    return place ? result.fit.estimates(*place) : 0.0;
+  };
+  for (std::size_t t = 0; t < tests.size(); ++t)
+    if (tests[t].strain_zero_sought)
+      taut[t] = without_zeros(tests[t], 0.0, found(result.zeros[t].strain));
+  result.tested = stretch_range(taut);
   for (std::size_t t = 0; t < tests.size(); ++t) {
-    const auto found = [&](const std::optional<Index>& place) {
-      return place ? result.fit.estimates(*place) : 0.0;
-    };
-    const double stress = found(zeros[t].stress), strain = found(zeros[t].strain);
-    zeroed.push_back(without_zeros(tests[t], stress, strain));
-    result.fitted.push_back(predict(result, zeroed.back(), options.weights));
+    const double stress = found(result.zeros[t].stress), strain = found(result.zeros[t].strain);
+    result.fitted.push_back(
+        misfit_of(result, without_zeros(tests[t], stress, strain), options.weights));
     result.fitted.back().stress_zero = stress;
     result.fitted.back().strain_zero = strain;
   }
-  result.tested = stretch_range(zeroed);
-  result.untested = untested_modes(result, zeroed, options);
-  add_contradictions(result, zeroed, options);
+  // The further strained side of a test comes first.
+  for (auto part = result.parts.rbegin(); part != result.parts.rend(); ++part) {
+    TestMisfit& test = result.fitted[part->test];
+    test.factor = part->factor;
+    test.misfit = std::fmax(test.misfit, part->misfit);
+  }
+  result.untested = untested_modes(result, tests, options);
+  add_contradictions(result, tests, options);
   return result;
 }
 
@@ -373,16 +371,20 @@ double wildness(const LawFit& law, const Laws& laws) {
 ModulusOfLaws modulus_of(const LawFit& fit) {
   const VectorXd slopes = shear_modulus_slopes(fit.choice, fit.fit.estimates);
   const Index own = slopes.size();
-  const double variance = slopes.dot(fit.fit.covariance.topLeftCorner(own, own) * slopes);
-  // Half an interval over a standard error, the same for all coefficients.
-  double half = 0.0;
-  for (Index i = 0; i < own; ++i)
-    if (fit.fit.standard_errors(i) > 0.0)
-      half =
-          std::max(half, (fit.fit.upper(i) - fit.fit.lower(i)) / 2.0 / fit.fit.standard_errors(i));
-  half *= std::sqrt(variance);
+  const double deviation =
+      std::sqrt(slopes.dot(fit.fit.covariance.topLeftCorner(own, own) * slopes));
+  // An end of an interval over a standard error, as far as that of any coefficient.
+  double below = 0.0, above = 0.0;
+  for (Index i = 0; i < own; ++i) {
+    const double error = fit.fit.standard_errors(i);
+    if (!(error > 0.0)) continue;
+    const double down = (fit.fit.estimates(i) - fit.fit.lower(i)) / error,
+                 up = (fit.fit.upper(i) - fit.fit.estimates(i)) / error;
+    below = std::max(below, slopes(i) < 0.0 ? up : down);
+    above = std::max(above, slopes(i) < 0.0 ? down : up);
+  }
   const double g = fit.law.shear_modulus;
-  return {g, g - half, g + half, {&fit}};
+  return {g, g - below * deviation, g + above * deviation, {&fit}};
 }
 
 ModulusOfLaws modulus_of_laws(const std::vector<LawFit>& ranking, const LawFit& taken) {
@@ -394,16 +396,23 @@ ModulusOfLaws modulus_of_laws(const std::vector<LawFit>& ranking, const LawFit& 
   const double best_aicc = best == ranking.end() ? taken.aicc : best->aicc;
   ModulusOfLaws all = modulus_of(taken);
   all.laws.clear();
+  std::vector<double> values, deviations, weights;
+  double sum = 0.0;
   for (const LawFit& fit : ranking) {
     if (&fit != &taken && !(stable(fit) && fit.aicc <= best_aicc + as_good_aicc)) continue;
     const ModulusOfLaws own = modulus_of(fit);
     if (&fit != &taken && !(own.upper - own.lower <= own.value)) continue;
     all.laws.push_back(&fit);
-    all.lower = std::min(all.lower, own.lower);
-    all.upper = std::max(all.upper, own.upper);
-    if (const auto& zero = fit.with_free_zero; zero && zero->aicc <= best_aicc + as_good_aicc)
-      all.lower = std::min(all.lower, zero->lower), all.upper = std::max(all.upper, zero->upper);
+    values.push_back(0.5 * (own.lower + own.upper));
+    deviations.push_back((own.upper - own.lower) / (2.0 * normal_95()));
+    // What is taken counts as much as any.
+    weights.push_back(&fit == &taken ? 1.0 : std::exp(-0.5 * std::max(0.0, fit.aicc - best_aicc)));
+    sum += weights.back();
   }
+  if (all.laws.size() < 2) return all;
+  for (double& weight : weights) weight /= sum;
+  all.lower = std::min(all.value, mixture_point(values, deviations, weights, 0.025));
+  all.upper = std::max(all.value, mixture_point(values, deviations, weights, 0.975));
   return all;
 }
 

@@ -48,10 +48,9 @@ struct ModulusOfLaws {
 };
 /// Of one law, by its coefficients' covariance.
 ModulusOfLaws modulus_of(const LawFit& fit);
-/// Of the law `taken`, with the intervals of all stable laws of the ranking that are supported as
-/// well as the best of them (as_good_aicc) and tell G within a factor of two: tests do not choose
-/// among these, and at rest they differ; and, where nothing tells the stress's zero, with those
-/// that a free one leaves.
+/// Of the law `taken`; the interval is that of all stable laws of the ranking that are supported as
+/// well as the best of them (as_good_aicc) and tell G within a factor of two, by Akaike's weights,
+/// exp(-(AICc - the best)/2) (Burnham & Anderson, ch. 4): at rest they differ.
 ModulusOfLaws modulus_of_laws(const std::vector<LawFit>& ranking, const LawFit& taken);
 
 /// The laws that it chooses among; none where none passed its own tests.

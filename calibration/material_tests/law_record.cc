@@ -113,7 +113,8 @@ std::string modulus_statement(const std::vector<LawFit>& ranking, const LawFit& 
                   : ")") +
          (best.bulk_modulus
               ? "."
-              : ", and E = 3 G = " + quantity_text(3.0 * modulus.value, "Pa", 4) + ".");
+              : ", and E = 3 G = " + quantity_text(3.0 * modulus.value, "Pa", 4) + ".") +
+         " Areas count as told: 1 % of them all is 1 % of G.";
 }
 
 }  // namespace

@@ -23,8 +23,10 @@ consteval auto fields_of(const LawTestEntry*) {
   return FINGERTIP_MEMBERS(LawTestEntry, name, kind, use, points, rms, rms_relative,
                            largest_relative, sum_of_squares, within, in_range, structure, course,
                            rate, loop_measured, loop_computed, published, stress_zero, strain_zero,
-                           specimens)
-      .newer("course rate loop_measured loop_computed published stress_zero strain_zero specimens");
+                           specimens, factor, misfit)
+      .newer(
+          "course rate loop_measured loop_computed published stress_zero strain_zero specimens "
+          "factor misfit");
 }
 
 /// Where a law stops being stable.
@@ -62,8 +64,8 @@ struct LawsFile {
   /// At rest, of the recommended law; its 95 % interval over all laws that the tests support alike.
   double shear_modulus = meshes::unknown, shear_modulus_lower = meshes::unknown,
          shear_modulus_upper = meshes::unknown;
-  std::vector<std::string> supported;                                      ///< their names
-  std::vector<LawEntry> laws;                                              ///< the least AICc first
+  std::vector<std::string> supported;  ///< their names
+  std::vector<LawEntry> laws;          ///< the least AICc first
   std::vector<std::string> failed;  ///< LawFit::failed of the recommended one; or why there is none
   std::string statement;
 };

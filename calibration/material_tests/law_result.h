@@ -52,9 +52,12 @@ struct TestMisfit {
   /// covariance and the residuals' deviation; NaN without degrees of freedom. Residuals of one test
   /// hang together, and specimens differ: a share far below 0.95 says that they do.
   double within = 0.0;
-  /// What the fit has found for a test whose zeros it sought: `stress` is that of the law at the
-  /// deformations less the second, and adds to the first.
+  /// What the fit has found for a test's zeros: `stress` is that of the law at the deformations
+  /// less the second, and adds to the first.
   double stress_zero = 0.0, strain_zero = 0.0;
+  /// Of a test that was fitted: its stresses over those of the law, the tests' mean being 1, and
+  /// the largest PartErrors::misfit; NaN where they are not sought.
+  double factor = meshes::unknown, misfit = meshes::unknown;
   bool in_range = true;        ///< the stretches are among those of the fitted tests
   std::vector<double> stress;  ///< of the law at the test's points [Pa]
   /// Of cycles: loop_area of the stresses measured and of the law's [J/m³]; else NaN.
@@ -70,9 +73,18 @@ struct UntestedMode {
   double share = 0.0;    ///< |stress| over that in the way tested, at the same largest stretch
 };
 
-/// The shear modulus at rest of a law whose tests' stresses have a zero each that nobody knows.
-struct FreeZero {
-  double aicc = 0.0, lower = 0.0, upper = 0.0;  ///< of the fit; 95 % [Pa]
+/// What is off in a part of a test besides noise and zeros.
+struct PartErrors {
+  std::size_t test = 0;  ///< among those fitted
+  TestPart part;
+  double factor = 1.0;       ///< of its stresses on those of the law; of several parts
+  double misfit = 0.0;       ///< root mean square of the smooth part that the law misses, relative
+  bool misfit_seen = false;  ///< by no chance
+};
+
+/// Where a test's zeros stand among a fit's parameters; none: they are zero.
+struct ZeroPlaces {
+  std::optional<Eigen::Index> stress, strain;
 };
 
 struct LawFit {
@@ -83,10 +95,10 @@ struct LawFit {
   SizedLaw law;
   meshes::Relaxation relaxation;       ///< the fastest branch first
   std::optional<double> bulk_modulus;  ///< [Pa]; none: no volumetric test
-  std::optional<FreeZero> with_free_zero;  ///< where rank_laws has tried it
-  /// n ln(S/n) + 2k + 2k(k + 1)/(n - k - 1), n residuals of weighted sum of squares S, k the
-  /// coefficients and, without sigma, the deviation (Hurvich & Tsai, Biometrika 76, 297, 1989);
-  /// with sigma S + 2k + ... Infinite where n <= k + 1.
+  /// -2 ln L + 2k + 2k(k + 1)/(n - k - 1), L the likelihood of n values, what the law misses
+  /// smoothly, factors and zeros integrated out, k the coefficients, zeros that are sought, and a
+  /// deviation (Hurvich & Tsai, Biometrika 76, 297, 1989). Of tests in time n ln(S/n) in place of
+  /// -2 ln L, S the weighted sum of squares, with sigma S. Infinite where n <= k + 1.
   double aicc = 0.0;
   std::array<double, 2> tested = {1.0, 1.0};  ///< principal stretches of the fitted tests
   /// Where the fitted tests tell how stress fades, from when to when [s] (observed_times).
@@ -94,6 +106,8 @@ struct LawFit {
   /// Branches outside of those times, which the tests hardly know, and what would show them.
   std::vector<std::string> open_branches;
   std::vector<TestMisfit> fitted, predicted;
+  std::vector<ZeroPlaces> zeros;  ///< per test fitted
+  std::vector<PartErrors> parts;  ///< of the tests fitted that change the shape; of slow ones
   /// Where the fitted tests know one way of deforming alone, the others, as far as that was
   /// strained and the law will be used.
   std::vector<UntestedMode> untested;
@@ -104,8 +118,10 @@ struct LawFit {
   std::vector<std::string> contradictions;
   /// Those of them for which it must not be used as it is; none: it passed its own tests. It fails
   /// where the search did not end, a coefficient ended at a bound, a direction or a branch is open,
-  /// where it is unstable (Drucker), where it misses a test, or a side of one, by more than 15 %
-  /// (relative_rms) that no sigma explains, and where the specimen was slack at first.
+  /// G at rest is not known within a factor of two, where it is unstable (Drucker), where it misses
+  /// a test, or a side of one, by more than 15 % (rms, noise taken off), where tests contradict
+  /// each other or do not go through rest by three times what is usual, and where a specimen was
+  /// slack.
   std::vector<std::string> failed;
   /// Why there is no fit; all but `choice` is then empty.
   std::string failure;

@@ -187,6 +187,50 @@ std::array<double, 3> principal_stretches(TestKind kind, double deformation) {
   return {1.0, 1.0, 1.0};
 }
 
+/// Largest logarithmic strain [1].
+double strain_size(TestKind kind, double deformation) {
+  double size = 0.0;
+  for (const double stretch : principal_stretches(kind, deformation))
+    size = std::max(size, std::abs(std::log(stretch)));
+  return size;
+}
+
+namespace {
+
+/// What a test does on one side of rest counts by itself where it goes so far, of all its strain.
+constexpr double min_side = 0.1;
+
+std::string way_of(TestKind kind, DeformationMode mode) {
+  if (kind == TestKind::planar) return "planar tension";
+  if (kind == TestKind::simple_shear) return std::string(name(kind));
+  if (kind != TestKind::equibiaxial) return std::string(name(mode));
+  return mode == DeformationMode::compression ? "biaxial tension" : "biaxial compression";
+}
+
+}  // namespace
+
+std::vector<TestPart> parts_of(const MaterialTest& test) {
+  std::map<DeformationMode, TestPart> sides;
+  for (std::size_t i = 0; i < test.deformation.size(); ++i) {
+    const DeformationMode mode = mode_of(test.kind, test.deformation[i]);
+    TestPart& side = sides[mode];
+    side.mode = mode;
+    side.way = way_of(test.kind, mode);
+    side.name = test.name + " in " + side.way;
+    side.points.push_back(i);
+    side.strain = std::max(side.strain, strain_size(test.kind, test.deformation[i]));
+  }
+  std::vector<TestPart> parts;
+  for (auto& [mode, side] : sides) parts.push_back(std::move(side));
+  std::ranges::stable_sort(parts, std::greater(), &TestPart::strain);
+  if (parts.size() == 2 && parts[1].strain < min_side * parts[0].strain) {
+    parts[0].points.insert(parts[0].points.end(), parts[1].points.begin(), parts[1].points.end());
+    parts.pop_back();
+  }
+  if (parts.size() == 1) parts[0].name = test.name;
+  return parts;
+}
+
 std::array<double, 2> stretch_range(const std::vector<MaterialTest>& tests) {
   std::array<double, 2> range = {1.0, 1.0};
   for (const MaterialTest& test : tests) {

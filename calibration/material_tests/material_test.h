@@ -138,6 +138,20 @@ double loop_area(const MaterialTest& test, const std::vector<double>& stress);
 /// of volume 1 but in a volumetric test, J^(1/3) each.
 std::array<double, 3> principal_stretches(TestKind kind, double deformation);
 
+/// Largest logarithmic strain [1].
+double strain_size(TestKind kind, double deformation);
+
+/// Points of a test that deform the rubber in one way. What it does on one side of rest is a part
+/// of its own where that goes to a tenth of all its strain.
+struct TestPart {
+  std::string name, way;  ///< of the test, and its side where it has both; "biaxial tension"
+  DeformationMode mode = DeformationMode::shear;
+  std::vector<std::size_t> points = {};
+  double strain = 0.0;  ///< the largest
+};
+/// The further strained one first.
+std::vector<TestPart> parts_of(const MaterialTest& test);
+
 /// The smallest and largest principal stretch over all tests but volumetric ones; {1, 1} for none.
 std::array<double, 2> stretch_range(const std::vector<MaterialTest>& tests);
 

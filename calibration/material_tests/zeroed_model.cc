@@ -20,36 +20,6 @@ double reach_of(const MaterialTest& test) {
   return reach;
 }
 
-std::vector<ZeroPlaces> add_zeros(const std::vector<MaterialTest>& tests,
-                                  CurveFitOptions& options) {
-  std::vector<ZeroPlaces> places(tests.size());
-  const auto append = [&](FreeParameter free, const std::string& of) {
-    free.of = of;
-    options.free.push_back(std::move(free));
-    for (VectorXd& start : options.other_starts) {
-      start.conservativeResize(start.size() + 1);
-      start(start.size() - 1) = 0.0;
-    }
-    return Index(options.free.size()) - 1;
-  };
-  for (std::size_t t = 0; t < tests.size(); ++t) {
-    const double most = largest_stress(tests[t]), reach = reach_of(tests[t]);
-    if (tests[t].stress_zero_sought)
-      places[t].stress = append({.parameter = MaterialParameter::stress_zero,
-                                 .lower = -most,
-                                 .upper = most,
-                                 .scale = most},
-                                tests[t].name);
-    if (tests[t].strain_zero_sought)
-      places[t].strain = append({.parameter = MaterialParameter::strain_zero,
-                                 .lower = -0.5 * reach,
-                                 .upper = 0.5 * reach,
-                                 .scale = reach},
-                                tests[t].name);
-  }
-  return places;
-}
-
 ZeroedModel::ZeroedModel(MaterialTest test, std::vector<double> scales, LawChoice choice,
                          std::vector<MaterialParameter> parameters, ZeroPlaces zeros)
     : test_(std::move(test)),

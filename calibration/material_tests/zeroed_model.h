@@ -4,22 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "calibration/material_tests/law_model.h"
-#include "calibration/statistics/fit_options.h"
+#include "calibration/material_tests/law_result.h"
 
 namespace fingertip::calibration::inline material_tests {
 
 /// Largest |stress| [Pa], and largest distance of the deformation from rest.
 double largest_stress(const MaterialTest& test);
 double reach_of(const MaterialTest& test);
-
-/// Where a test's zeros stand among a fit's parameters; none: they are zero.
-struct ZeroPlaces {
-  std::optional<Eigen::Index> stress, strain;
-};
-
-/// Adds the zeros that tests seek behind the other parameters, starts and all.
-std::vector<ZeroPlaces> add_zeros(const std::vector<MaterialTest>& tests, CurveFitOptions& options);
 
 /// A test that measures s0 + the law's stress at l - e0, over its scales: s0 exact, the slope by e0
 /// by central differences of the law's stress.

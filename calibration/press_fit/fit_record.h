@@ -15,6 +15,7 @@
 #include "calibration/statistics/design.h"
 #include "calibration/statistics/fit_options.h"
 #include "calibration/statistics/fit_result.h"
+#include "calibration/statistics/posterior.h"
 #include "calibration/statistics/score_tests.h"
 
 namespace fingertip::calibration::inline press_fit {
@@ -26,13 +27,6 @@ struct RigValue {
   double held = 0.0;                 ///< in the parameter's unit, where it is not fitted
   std::optional<std::size_t> place;  ///< among the parameters, where it is
   bool given = false;                ///< somebody has stated it; else it is the default
-};
-
-/// A value far off all others, which counts for nothing.
-struct OddValue {
-  std::size_t curve = 0, place = 0;
-
-  bool operator==(const OddValue&) const = default;
 };
 
 /// Everything that is told of a fit.
@@ -57,9 +51,10 @@ struct FitRecord {
   std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
   std::vector<ScoreTest> lack_of_fit;            ///< gravest first
   std::vector<MeasurementGain> next;             ///< further measurements, best first
-  std::vector<bool> profiled;    ///< per parameter: its interval is the profile's; or empty
-  std::vector<Repeats> repeats;  ///< groups of curves
+  std::vector<bool> profiled;         ///< per parameter: its interval is the profile's; or empty
+  std::vector<Repeats> repeats;       ///< groups of curves
   std::optional<ErrorsEntry> errors;  ///< of measured presses
+  double misfit_size = 0.0;  ///< deviation of what their model misses, relative; 0: not sought
   std::vector<OddValue> odd;
   /// Where repeats scatter, what each leaves with a factor of its own on its force; else empty.
   std::vector<Eigen::VectorXd> own_residuals;

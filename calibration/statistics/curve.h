@@ -34,7 +34,7 @@ struct Curve {
   /// Of a press: nobody has told the load cell's zero, and the file's rows or its description ask
   /// for it.
   bool zero_is_sought = false;
-  bool in_time = false;    ///< values follow each other in time, and x may stand still
+  bool in_time = false;  ///< values follow each other in time, and x may stand still
   LoadingHistory course = {};
 };
 

@@ -16,6 +16,9 @@ namespace fingertip::calibration::inline statistics {
 struct Prior {
   double mean = 0.0;
   double deviation = 0.0;  ///< > 0
+  /// Cauchy's, of what is usually small but, where it is not, of any size: posterior_fit alone
+  /// knows them.
+  bool heavy_tails = false;
 };
 
 /// E, G, bond, contact and times are positive and vary by their logarithm; k1, k2, k3 >= 0, kappa,

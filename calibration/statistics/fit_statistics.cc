@@ -133,6 +133,28 @@ double normal_95() {
   return quantile(boost::math::normal(), upper_tail);
 }
 
+double mixture_point(const std::vector<double>& means, const std::vector<double>& deviations,
+                     const std::vector<double>& weights, double share) {
+  constexpr double close = 1e-6;  // of the whole
+  double low = means.front(), high = low;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    low = std::min(low, means[i] - 10.0 * deviations[i]);
+    high = std::max(high, means[i] + 10.0 * deviations[i]);
+  }
+  const double whole = high - low;
+  while (high - low > close * whole) {
+    const double middle = 0.5 * (low + high);
+    double below = 0.0;
+    // Boost's distribution counts in long doubles, which take ten times as long.
+    for (std::size_t k = 0; k < means.size(); ++k)
+      below += weights[k] * (deviations[k] > 0.0
+                                 ? 0.5 * std::erfc((means[k] - middle) / (M_SQRT2 * deviations[k]))
+                                 : double(means[k] <= middle));
+    (below < share ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 double chi_square_above(double chi_square, int degrees_of_freedom) {
   return cdf(complement(boost::math::chi_squared(degrees_of_freedom), chi_square));
 }

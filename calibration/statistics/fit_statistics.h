@@ -15,6 +15,11 @@ namespace fingertip::calibration::inline statistics {
 double student_95(double degrees_of_freedom);
 double normal_95();
 
+/// Where a mixture of normal distributions, as many of each and `weights` of sum 1, has a share
+/// below it.
+double mixture_point(const std::vector<double>& means, const std::vector<double>& deviations,
+                     const std::vector<double>& weights, double share);
+
 /// Probability that chi-square with so many degrees of freedom (>= 1) is at least that large.
 double chi_square_above(double chi_square, int degrees_of_freedom);
 

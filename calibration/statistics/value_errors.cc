@@ -3,10 +3,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <numeric>
 
+#include "calibration/statistics/fit_statistics.h"
 #include "meshes/base/errors.h"
 
 namespace fingertip::calibration::inline statistics {
@@ -25,6 +25,10 @@ constexpr double least_size = 1e-3, most_size = 100.0, size_step = 0.5, coarse_s
 /// Steps of ln noise about its best value, and how far in standard deviations.
 constexpr int noise_points = 7;
 constexpr double noise_reach = 2.5;
+
+/// A parameter that changes the values by less has no unit of its own, nor a variance that fits a
+/// number.
+constexpr double invisible = 1e-50;
 
 /// The values in coordinates in which noise and known errors of the models are independent, and
 /// parameters in units of their size.
@@ -58,19 +62,23 @@ class MixedModel {
     alike_ = (known_ == 0.0).all();
     units_ = VectorXd::Ones(columns);
     for (Index j = 0; j < parameters_; ++j)
-      if (const double norm = columns_.col(j).norm(); norm > 0.0) units_(j) = 1.0 / norm;
+      if (const double norm = columns_.col(j).norm(); norm > invisible) units_(j) = 1.0 / norm;
     columns_ = columns_ * units_.asDiagonal();
     if (alike_) {  // then they need no weights of their own
       gram_ = columns_.transpose() * columns_;
       shared_ = columns_.transpose() * residuals_;
       squares_ = residuals_.squaredNorm();
     }
-    unit_logs_ = 2.0 * (fit.deviations.array().log().sum() - units_.array().log().sum());
+    unit_logs_ = 2.0 * fit.deviations.array().log().sum();
     precision_ = shift_ = VectorXd::Zero(columns);
     for (Index j = 0; j < parameters_; ++j)
       if (const auto& prior = fit.free[std::size_t(j)].prior) {
         precision_(j) = std::pow(units_(j) / prior->deviation, 2);
         shift_(j) = (prior->mean - fit.estimates(j)) / units_(j);
+        unit_logs_ -= std::log(precision_(j));
+      } else {
+        unit_logs_ -= 2.0 * std::log(units_(j));
+        without_prior_.push_back(j);
       }
   }
 
@@ -105,7 +113,9 @@ class MixedModel {
       right(j) += precision * shift_(j);
       if (k >= 0) determinant -= std::log(precision);
     }
-    // What neither values nor priors tell has a huge variance, not an infinite one.
+    // What neither values nor priors tell, of one or of several alike, has a huge variance, not an
+    // infinite one.
+    matrix.diagonal().head(parameters_).array() *= 1.0 + 1e-10;
     matrix.diagonal().head(parameters_).array() += 1e-12;
     const Eigen::LDLT<MatrixXd> factor(matrix);
     Point point;
@@ -118,6 +128,16 @@ class MixedModel {
     return point;
   }
 
+  /// The logarithm of the likelihood with parameters without a prior at their best, all else
+  /// integrated out.
+  double log_likelihood(double noise, const std::vector<double>& sizes) const {
+    const Point point = at(noise, sizes, true);
+    const MatrixXd open = point.covariance(without_prior_, without_prior_);
+    double unit_logs = 0.0;
+    for (const Index j : without_prior_) unit_logs += std::log(units_(j));
+    return point.density - 0.5 * open.ldlt().vectorD().array().abs().log().sum() - unit_logs;
+  }
+
   Index parameters() const { return parameters_; }
   const VectorXd& units() const { return units_; }
 
@@ -127,6 +147,7 @@ class MixedModel {
   VectorXd residuals_, shared_, units_, precision_, shift_;
   bool alike_ = true;  ///< all values, for the models have no known errors
   double squares_ = 0.0, unit_logs_ = 0.0;
+  std::vector<Index> without_prior_;  ///< parameters
   ArrayXd known_;               ///< variance of the models' known errors over that of the noise
   std::vector<int> component_;  ///< of a column; -1: a parameter
 };
@@ -170,26 +191,6 @@ double weighted_point(std::vector<std::pair<double, double>> values, double shar
   return values.back().first;
 }
 
-/// Where a mixture of normal distributions has a share below it.
-double mixture_point(const std::vector<double>& means, const std::vector<double>& deviations,
-                     const std::vector<double>& weights, double share) {
-  double low = means.front(), high = low;
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    low = std::min(low, means[i] - 10.0 * deviations[i]);
-    high = std::max(high, means[i] + 10.0 * deviations[i]);
-  }
-  for (int i = 0; i < 100 && high - low > 0.0; ++i) {
-    const double middle = 0.5 * (low + high);
-    double below = 0.0;
-    for (std::size_t k = 0; k < means.size(); ++k)
-      below += weights[k] * (deviations[k] > 0.0
-                                 ? cdf(boost::math::normal(means[k], deviations[k]), middle)
-                                 : double(means[k] <= middle));
-    (below < share ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 /// All choices of the sizes of components, with some of the noise each.
 class Grid {
  public:
@@ -217,6 +218,7 @@ class Grid {
   /// Without a prior of sizes: the best likelihood of all choices, and of those without component
   /// `k`.
   double seen(std::size_t k) const { return 2.0 * (best_ - best_without_[k]); }
+  const Choice& likeliest() const { return best_choice_; }
 
  private:
   double noise_prior(double ln_noise) const {
@@ -254,6 +256,7 @@ class Grid {
       if (found) break;
     }
     centre_ = best;
+    if (there > best_) best_choice_ = {std::exp(best), sizes, there};
     const double deviation = std::clamp(1.0 / std::sqrt(std::max(-bend, 1e-2)), 0.01, 2.0);
     best_without_.resize(sizes.size(), -std::numeric_limits<double>::infinity());
     best_ = std::max(best_, there);
@@ -281,6 +284,7 @@ class Grid {
   std::vector<Choice> choices_;
   double evidence_ = 0.0, best_ = -std::numeric_limits<double>::infinity(), most_ = best_;
   std::vector<double> best_without_;
+  Choice best_choice_;
 };
 
 void check(const LinearisedFit& fit, const std::vector<ErrorComponent>& components) {
@@ -312,6 +316,7 @@ ValueErrors value_errors(const LinearisedFit& fit, const std::vector<ErrorCompon
   const Index parameters = model.parameters();
   ValueErrors result;
   result.log_evidence = grid.log_evidence();
+  result.log_likelihood = model.log_likelihood(grid.likeliest().noise, grid.likeliest().sizes);
   // Sizes: medians, by which the errors' covariance is told.
   std::vector<std::pair<double, double>> noises;
   for (const Choice& each : grid.choices()) noises.emplace_back(each.noise, each.density);
@@ -374,7 +379,7 @@ ValueErrors value_errors(const LinearisedFit& fit, const std::vector<ErrorCompon
 }
 
 MatrixXd smooth_columns(const VectorXd& u, double length) {
-  // Nyström: through a few nodes, far closer than the length, which leaves 1e-6 of the variance.
+  // Nyström: through a few nodes, far closer than the length, which leaves 1e-4 of the variance.
   const Index nodes = Index(std::ceil(2.0 / length)) + 6;
   const VectorXd at = VectorXd::LinSpaced(nodes, -0.05, 1.05);
   const auto kernel = [&](double a, double b) {
@@ -385,7 +390,7 @@ MatrixXd smooth_columns(const VectorXd& u, double length) {
   const MatrixXd across =
       MatrixXd::NullaryExpr(u.size(), nodes, [&](Index i, Index j) { return kernel(u(i), at(j)); });
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(own);
-  const double least = 1e-8 * eigen.eigenvalues()(nodes - 1);
+  const double least = 1e-5 * eigen.eigenvalues()(nodes - 1);
   const Index kept = (eigen.eigenvalues().array() > least).count();
   return across * eigen.eigenvectors().rightCols(kept) *
          eigen.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();

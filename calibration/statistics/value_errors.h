@@ -44,6 +44,9 @@ struct ValueErrors {
   Eigen::MatrixXd covariance;            ///< of the parameters
   /// Of the data, between models of the same parameters.
   double log_evidence = 0.0;
+  /// With the likeliest sizes and parameters, those with a prior integrated out: between models of
+  /// other parameters.
+  double log_likelihood = 0.0;
 };
 
 /// Given the sizes, everything is linear and normal, errors of components beside parameters

@@ -6,10 +6,9 @@
 #include <utility>
 
 #include "calibration/statistics/curve_checks.h"
-#include "calibration/statistics/curve_fit.h"
 #include "calibration/statistics/curve_residuals.h"
 #include "calibration/statistics/fit_statistics.h"
-#include "calibration/statistics/value_errors.h"
+#include "calibration/statistics/posterior.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
@@ -72,10 +71,7 @@ bool scatter(const std::vector<calibration::Repeats>& repeats) {
       repeats, [](const calibration::Repeats& group) { return group.deviation > 0.0; });
 }
 
-namespace {
-
 using calibration::Curve, calibration::CurveFit, calibration::Repeats;
-using calibration::OddValue;
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 /// Of groups of two curves or more.
@@ -96,20 +92,15 @@ std::vector<calibration::Repeats> repeats_in(const FitInput& input,
   return found;
 }
 
-using Models = std::vector<calibration::ForwardModel*>;
+namespace {
 
 /// Over the deepest press of the same kind: what a model misses is smooth on this scale. It is a
 /// share of the force and, independent of that, a tenth of such a share of the largest one: errors
 /// of what is pressed grow with the force, those of how it is touched do not.
 constexpr double smooth_length = 0.5, near_touch = 0.1;
-/// Priors of the deviations of that share and of factors between repeats.
-constexpr double misfit_scale = 0.01, scatter_scale = 0.05;
-/// No file tells less than this share of the largest force.
-constexpr double least_told = 1e-5;
-/// A value this many deviations off, the misfit taken out, is no noise: one in 150 000.
-constexpr double odd = 4.5;
 
-/// Presses that share what their model misses, those that differ by nothing but their rows.
+}  // namespace
+
 std::vector<std::vector<std::size_t>> sharing(const FitInput& input) {
   std::vector<std::vector<std::size_t>> groups = alike(input);
   for (std::size_t i = 0; i < input.curves.size(); ++i)
@@ -119,40 +110,39 @@ std::vector<std::vector<std::size_t>> sharing(const FitInput& input) {
   return groups;
 }
 
-/// Of one fit: its linearisation, and the force and depth of every value.
-struct Linearised {
-  calibration::LinearisedFit fit;
-  VectorXd force, depth;
-};
-
-Linearised linearised(const FitInput& input, const Models& models, const VectorXd& estimates) {
+ForceAndDepth presses_at(const FitInput& input, const VectorXd& estimates,
+                         const VectorXd& computed) {
   const std::vector<Curve> curves = curves_of(input);
-  const auto zero = zeros(input, estimates);
-  const Index values = first_value(curves, curves.size());
-  Linearised at;
-  at.fit.estimates = estimates;
-  at.fit.free = input.options.free;
-  at.fit.jacobian.resize(values, estimates.size());
-  at.force.resize(values), at.depth.resize(values);
-  VectorXd computed(values);
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    const calibration::CurveSlopes slopes = models[i]->evaluate(estimates);
-    const Index first = first_value(curves, i), count = slopes.value.size();
-    computed.segment(first, count) = slopes.value;
-    at.fit.jacobian.middleRows(first, count) = slopes.jacobian;
-    at.force.segment(first, count) = (slopes.value - zero[i]).cwiseMax(0.0);
+  ForceAndDepth at{(computed - calibration::stacked(zeros(input, estimates))).cwiseMax(0.0),
+                   VectorXd(computed.size())};
+  for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const std::vector<double> depths =
         input.curves[i].travel ? input.curves[i].travel->indentations(curves[i], estimates)
                                : curves[i].x;
-    at.depth.segment(first, count) = VectorXd::Map(depths.data(), count);
+    at.depth.segment(first_value(curves, i), Index(depths.size())) =
+        VectorXd::Map(depths.data(), Index(depths.size()));
   }
-  at.fit.residuals = calibration::all_values(curves) - computed;
   return at;
 }
 
+MatrixXd misfit_columns(const VectorXd& force, const VectorXd& depth, double deepest) {
+  const MatrixXd smooth = calibration::smooth_columns(depth / deepest, smooth_length);
+  const VectorXd touched = near_touch * force.maxCoeff() * force.cwiseSign();
+  MatrixXd columns(smooth.rows(), 2 * smooth.cols());
+  columns << force.asDiagonal() * smooth, touched.asDiagonal() * smooth;
+  return columns;
+}
+
+namespace {
+
+using Models = std::vector<calibration::ForwardModel*>;
+
+/// Priors of the deviations of that share and of factors between repeats.
+constexpr double misfit_scale = 0.01, scatter_scale = 0.05;
+
 /// What the model may miss smoothly, shared by presses alike, and a factor of every repeat.
 std::vector<calibration::ErrorComponent> components_of(const FitInput& input,
-                                                       const Linearised& at) {
+                                                       const ForceAndDepth& at) {
   const std::vector<Curve> curves = curves_of(input);
   calibration::ErrorComponent missed{{}, misfit_scale}, factors{{}, scatter_scale};
   const auto append = [&](MatrixXd& all, const MatrixXd& columns) {
@@ -168,11 +158,7 @@ std::vector<calibration::ErrorComponent> components_of(const FitInput& input,
     MatrixXd columns;
     for (const std::size_t i : group) {
       const VectorXd force = at.force(rows_of(i));
-      const MatrixXd smooth =
-          calibration::smooth_columns(at.depth(rows_of(i)) / deepest, smooth_length);
-      const VectorXd touched = near_touch * force.maxCoeff() * force.cwiseSign();
-      MatrixXd own(smooth.rows(), 2 * smooth.cols());
-      own << force.asDiagonal() * smooth, touched.asDiagonal() * smooth;
+      const MatrixXd own = misfit_columns(force, at.depth(rows_of(i)), deepest);
       if (columns.size() == 0) columns = MatrixXd::Zero(at.force.size(), own.cols());
       columns(rows_of(i), Eigen::all) = own;
       if (group.size() < 2) continue;
@@ -195,110 +181,30 @@ std::vector<VectorXd> by_curve(const FitInput& input, const VectorXd& all) {
   return lists;
 }
 
-std::vector<Curve> with_sigma(std::vector<Curve> curves, const VectorXd& sigma) {
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    const VectorXd own = sigma.segment(first_value(curves, i), Index(curves[i].y.size()));
-    curves[i].sigma.assign(own.begin(), own.end());
-  }
-  return curves;
-}
-
-/// The fit of values whose errors are known by now.
-struct Weighed {
-  std::vector<Curve> curves;
-  calibration::CurveFitOptions options;
-  CurveFit fit;
-  calibration::ValueErrors errors;
-  std::vector<OddValue> odd;
-};
-
-/// What nobody has told of a machine is usually as small as its prior says, but who forgot to tare
-/// has forgotten it altogether: Cauchy's distribution, as the normal one that has the same slope at
-/// the estimates. In the first `round` hardly any, so that the data choose which one is large.
-void put_priors(std::vector<calibration::FreeParameter>& free, const FitInput& input,
-                const VectorXd& estimates, int round) {
-  constexpr double open = 50.0;
-  for (const calibration::RigValue& value : rig_values(input)) {
-    if (value.given || !value.place || !free[*value.place].prior) continue;
-    calibration::Prior& prior = *free[*value.place].prior;
-    const calibration::Prior& told = *input.options.free[*value.place].prior;
-    const double widths =
-        round == 0 ? open : (estimates(Index(*value.place)) - told.mean) / told.deviation;
-    prior.deviation = told.deviation * std::sqrt(0.5 * (1.0 + std::max(1.0, widths * widths)));
-  }
-}
-
-/// Values that are no noise, `left` over the noise being what is missed; of so many that they are
-/// no exceptions none is.
-std::vector<OddValue> odd_of(const std::vector<Curve>& curves, const VectorXd& left) {
-  constexpr std::size_t one_in = 25;
-  std::vector<OddValue> found;
-  std::size_t values = 0;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    values += curves[i].y.size();
-    for (std::size_t k = 0; k < curves[i].y.size(); ++k)
-      if (std::abs(left(first_value(curves, i) + Index(k))) > odd) found.push_back({i, k});
-  }
-  if (found.size() > values / one_in) found.clear();
-  return found;
-}
-
-/// From where `first` ended, again and again until errors and estimates stay. `plain` are the
-/// noise's deviations, told or alike; those of values that are odd become what these are off by.
-Weighed weighed(const FitInput& input, const Models& models, const CurveFit& first,
-                const VectorXd& plain, bool told) {
-  constexpr int rounds = 12;
-  constexpr double close = 0.05;  // of a standard error
-  const std::vector<Curve> curves = curves_of(input);
-  Weighed result{curves, input.options, first, {}, {}};
-  VectorXd deviations = plain;
-  for (int round = 0; round < rounds; ++round) {
-    Linearised at = linearised(input, models, result.fit.estimates);
-    put_priors(result.options.free, input, result.fit.estimates, round);
-    at.fit.free = result.options.free;
-    at.fit.deviations = deviations;
-    at.fit.noise_told = told;
-    if (!told) at.fit.least_noise = least_told * at.force.maxCoeff() / plain.minCoeff();
-    at.fit.model_covariance = input.options.model_covariance;
-    std::vector<calibration::ErrorComponent> components = components_of(input, at);
-    // What scatters is no misfit: touches that have taken it up give it back first.
-    if (round == 0 && components.size() > 1) components.erase(components.begin());
-    result.errors = calibration::value_errors(at.fit, components);
-    const VectorXd sigma = result.errors.noise * deviations;
-    result.curves = with_sigma(curves, sigma);
-    result.options.model_covariance = result.errors.covariance_of_values;
-    result.options.start_once();
-    for (std::size_t j = 0; j < result.options.free.size(); ++j)
-      result.options.free[j].start =
-          std::clamp(result.fit.estimates(Index(j)), result.options.free[j].lower,
-                     result.options.free[j].upper);
-    const CurveFit before = result.fit;
-    result.fit = calibration::fit_curves(result.curves, models, result.options);
-    result.fit.evaluations += before.evaluations;
-    // What is left is noise.
-    VectorXd left = at.fit.residuals - at.fit.jacobian * (result.errors.mean - at.fit.estimates);
-    for (const VectorXd& part : result.errors.parts) left -= part;
-    const std::vector<OddValue> known =
-        std::exchange(result.odd, odd_of(curves, left.cwiseQuotient(result.errors.noise * plain)));
-    const bool changed = result.odd != known;
-    deviations = plain;
-    for (const OddValue& each : result.odd) {
-      const Index row = first_value(curves, each.curve) + Index(each.place);
-      deviations(row) = std::abs(left(row)) / result.errors.noise;
-    }
-    const VectorXd step = (result.fit.estimates - before.estimates).cwiseAbs();
-    if (!changed && round > 1 && (step.array() <= close * result.fit.standard_errors.array()).all())
-      break;
-  }
-  return result;
+/// The fit of values whose errors are known by now. `told`: what files tell of their noise.
+calibration::Posterior weighed(const FitInput& input, const Models& models, const CurveFit& first,
+                               const VectorXd& told, bool is_told) {
+  return calibration::posterior_fit({.curves = curves_of(input),
+                                     .models = models,
+                                     .options = input.options,
+                                     .deviations = told,
+                                     .noise_told = is_told,
+                                     .components =
+                                         [&](const VectorXd& estimates, const VectorXd& computed) {
+                                           return components_of(
+                                               input, presses_at(input, estimates, computed));
+                                         }},
+                                    first);
 }
 
 /// Its values weighed by their noise, which repeats are compared with.
-CurveFit by_noise_alone(const FitInput& input, const Models& models, const Weighed& by,
-                        const VectorXd& told) {
+CurveFit by_noise_alone(const FitInput& input, const Models& models,
+                        const calibration::Posterior& by, const VectorXd& told) {
   CurveFit fit = by.fit;
   fit.whitening = (by.errors.noise * told).cwiseInverse().asDiagonal();
-  fit.jacobian = fit.whitening * linearised(input, models, fit.estimates).fit.jacobian;
+  fit.jacobian =
+      fit.whitening *
+      calibration::linearised(curves_of(input), models, input.options.free, fit.estimates).jacobian;
   return fit;
 }
 
@@ -337,26 +243,6 @@ void put_chi_square(CurveFit& fit, const FitInput& input, const VectorXd& told) 
     fit.chi_square_probability = calibration::chi_square_above(squares, fit.degrees_of_freedom);
 }
 
-/// Covariance and intervals of the posterior, which knows that sizes of errors are estimates.
-void put_posterior(CurveFit& fit, const calibration::ValueErrors& errors,
-                   const std::vector<calibration::FreeParameter>& free) {
-  fit.covariance = errors.covariance;
-  fit.standard_errors = fit.covariance.diagonal().cwiseSqrt();
-  const VectorXd inverse = fit.standard_errors.cwiseInverse();
-  fit.correlation = inverse.asDiagonal() * fit.covariance * inverse.asDiagonal();
-  for (Index j = 0; j < fit.estimates.size(); ++j) {
-    fit.lower(j) = fit.estimates(j) - (errors.mean(j) - errors.lower(j));
-    fit.upper(j) = fit.estimates(j) + (errors.upper(j) - errors.mean(j));
-    const calibration::FreeParameter& own = free[std::size_t(j)];
-    if (own.parameter != calibration::MaterialParameter::compliance || !own.prior) continue;
-    // What may well be zero has an interval there, too.
-    fit.lower(j) = std::max(fit.lower(j), own.lower);
-    if (fit.estimates(j) < 0.5 * own.upper) fit.at_bound[std::size_t(j)] = false;
-  }
-  if (const auto slopes = calibration::ratio_slopes(fit))
-    fit.poissons_ratio_error = std::sqrt(slopes->dot(fit.covariance * *slopes));
-}
-
 calibration::ErrorsEntry entry_of(const calibration::ValueErrors& errors, const VectorXd& told,
                                   bool is_told, const VectorXd& values) {
   calibration::ErrorsEntry entry;
@@ -372,7 +258,8 @@ calibration::ErrorsEntry entry_of(const calibration::ValueErrors& errors, const 
 
 /// Intervals up to where chi-square has risen as far as it does at those of the posterior, in their
 /// place where both ends are found.
-void add_intervals(const Models& models, const Weighed& by, calibration::FitRecord& record) {
+void add_intervals(const Models& models, const calibration::Posterior& by,
+                   calibration::FitRecord& record) {
   CurveFit& fit = record.fit;
   record.profiled.assign(fit.labels.size(), false);
   for (std::size_t i = 0; i < fit.labels.size(); ++i) {
@@ -396,12 +283,13 @@ void add_errors_and_intervals(const FitInput& input, const Models& models,
   if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return;
   const bool is_told = !input.curves.front().sigma.empty();
   const VectorXd told = told_deviations(input, record.fit);
-  const Weighed by = weighed(input, models, record.fit, told, is_told);
+  const calibration::Posterior by = weighed(input, models, record.fit, told, is_told);
   record.fit = by.fit;
   record.odd = by.odd;
   record.repeats = repeats_in(input, by_noise_alone(input, models, by, told));
-  put_posterior(record.fit, by.errors, input.options.free);
+  calibration::put_posterior(by.errors, input.options.free, record.fit);
   put_chi_square(record.fit, input, told);
+  record.misfit_size = by.errors.sizes.front();
   record.errors = entry_of(by.errors, told, is_told, calibration::all_values(record.curves));
   if (scatter(record.repeats)) {
     record.model_error +=

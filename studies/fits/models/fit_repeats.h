@@ -1,6 +1,7 @@
 /// Errors of the values of a fit, and the repeats among its curves.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "calibration/press_fit/fit_record.h"
@@ -18,6 +19,23 @@ std::vector<std::vector<std::size_t>> alike(const FitInput& input);
 
 /// Whether repeats scatter by more than their errors.
 bool scatter(const std::vector<calibration::Repeats>& repeats);
+
+/// Of presses alike, whose deepest indentation [m] is `deepest`: columns of what a model may miss
+/// of `force` [N] at `depth` [m] smoothly, as a share of it and, less, of the largest force.
+Eigen::MatrixXd misfit_columns(const Eigen::VectorXd& force, const Eigen::VectorXd& depth,
+                               double deepest);
+
+/// The press's own force [N] and depth [m], per value of all curves.
+struct ForceAndDepth {
+  Eigen::VectorXd force, depth;
+};
+/// `computed` by the models at `estimates`.
+ForceAndDepth presses_at(const FitInput& input, const Eigen::VectorXd& estimates,
+                         const Eigen::VectorXd& computed);
+
+/// Presses that share what their model misses, those that differ by nothing but their rows, and
+/// every other curve by itself.
+std::vector<std::vector<std::size_t>> sharing(const FitInput& input);
 
 /// What follows the search for `record.fit`: repeats, and the fit once more with the errors that
 /// its values show, noise, a smooth part that the model misses and a factor of every repeat

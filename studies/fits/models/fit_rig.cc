@@ -38,7 +38,8 @@ FreeParameter free_of(MaterialParameter parameter, const RigSetting& setting, Fr
     usual.start = setting.value;
     usual.lower = setting.value - range * setting.deviation;
     usual.upper = std::min(usual.upper, setting.value + range * setting.deviation);
-    usual.prior = calibration::Prior{setting.value, setting.deviation};
+    // Who forgot to tare has forgotten it altogether.
+    usual.prior = calibration::Prior{setting.value, setting.deviation, !setting.given};
     // Nobody has told it, and no machine has less than none.
     if (parameter == MaterialParameter::compliance && !setting.given)
       usual.lower = 0.0, usual.start = std::min(0.5 * setting.deviation, 0.1 * usual.upper);

@@ -51,7 +51,7 @@ class Trials {
 
   const FitInput& input_;
   calibration::CurveFitOptions options_;
-  Eigen::Index scales_ = 1;  ///< of the forces: one, or one of each curve
+  Eigen::Index scales_ = 1;           ///< of the forces: one, or one of each curve
   std::vector<Eigen::Index> places_;  ///< of the fit's parameters behind the scales; -1: held
   std::vector<Eigen::VectorXd> forces_;
   calibration::CurveFit before_;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "calibration/press_fit/model_error.h"
 #include "meshes/tables/interpolation.h"
+#include "studies/fits/models/fit_repeats.h"
 #include "studies/fits/models/fit_rig.h"
 #include "studies/fits/models/travel.h"
 
@@ -147,6 +149,13 @@ struct Joint {
   std::vector<lattice::PressSetup> presses;
   std::vector<double> theory;
   bool lattice_error = false;
+  /// Of the presses in order: what is theirs, and a number that presses alike share.
+  struct Press {
+    VectorXd force, depth;
+    std::size_t kind = 0;
+  };
+  std::vector<Press> made;
+  double misfit = 0.0, scatter = 0.0;
 
   MatrixXd covariance() const {
     Observations seen{jacobian, deviation, {}};
@@ -158,7 +167,26 @@ struct Joint {
       seen.model_covariance.topLeftCorner(relative.rows(), relative.cols()) =
           own.asDiagonal() * relative * own.asDiagonal();
     }
+    if (misfit > 0.0 || scatter > 0.0) add_unknown_errors(seen.model_covariance);
     return predicted_covariance(seen, free);
+  }
+  void add_unknown_errors(MatrixXd& covariance) const {
+    if (covariance.size() == 0) covariance = MatrixXd::Zero(forces.size(), forces.size());
+    std::map<std::size_t, double> deepest;
+    for (const Press& each : made)
+      deepest[each.kind] = std::max(deepest[each.kind], each.depth.maxCoeff());
+    std::map<std::size_t, MatrixXd> missed;
+    Index row = 0;
+    for (const Press& each : made) {
+      const MatrixXd own = misfit * misfit_columns(each.force, each.depth, deepest[each.kind]);
+      MatrixXd& all = missed[each.kind];
+      if (all.size() == 0) all = MatrixXd::Zero(forces.size(), own.cols());
+      all.middleRows(row, own.rows()) = own;
+      covariance.block(row, row, own.rows(), own.rows()) +=
+          scatter * scatter * each.force * each.force.transpose();
+      row += own.rows();
+    }
+    for (const auto& [kind, columns] : missed) covariance += columns * columns.transpose();
   }
   void append(const MatrixXd& rows, const VectorXd& sigma, const VectorXd& values) {
     const Index before = jacobian.rows(), columns = rows.cols();
@@ -196,6 +224,15 @@ Joint joint_of(const FitInput& input, const FitModels& models, const VectorXd& p
   joint.lattice_error = input.with_lattice_error;
   if (joint.lattice_error) joint.presses = presses_of_values(input);
   joint.theory = theory_at_values(input);
+  const ForceAndDepth at = presses_at(input, parameters, joint.forces);
+  const auto groups = sharing(input);
+  for (std::size_t i = 0; i < input.curves.size(); ++i) {
+    const auto rows =
+        Eigen::seqN(calibration::first_value(input.curves, i), Index(input.curves[i].y.size()));
+    const auto kind = std::ranges::find_if(
+        groups, [&](const auto& group) { return std::ranges::find(group, i) != group.end(); });
+    joint.made.push_back({at.force(rows), at.depth(rows), std::size_t(kind - groups.begin())});
+  }
   return joint;
 }
 
@@ -258,9 +295,10 @@ Further further_of(const FitInput& input, const FitInput& own,
   return further;
 }
 
-/// The press of `own`, whose first curve `models` answers for, added to what is known.
+/// The press of `own`, whose first curve `models` answers for, added to what is known; `kind`: that
+/// of Joint::Press.
 Joint with_press(Joint joint, const FitInput& input, const FitInput& own, const FitModels& models,
-                 const VectorXd& parameters, const Noise& noise) {
+                 const VectorXd& parameters, const Noise& noise, std::size_t kind) {
   const Further further = further_of(input, own, joint.free);
   VectorXd at(Index(own.options.free.size()));
   for (Index k = 0; k < at.size(); ++k) {
@@ -277,6 +315,8 @@ Joint with_press(Joint joint, const FitInput& input, const FitInput& own, const 
     rows.col(further.place[std::size_t(k)]) += slopes.jacobian.col(k);
   joint.free = further.free;
   joint.append(rows, vector_of(curve.sigma), slopes.value);
+  joint.made.push_back(
+      {forces_at(own, models, 0, own.curves.front().x, at), vector_of(own.curves.front().x), kind});
   if (joint.lattice_error) {
     joint.presses.push_back(own.curves.front().press);
     joint.presses.back().protocol.samples = own.curves.front().x;
@@ -308,9 +348,10 @@ Joint with_blank(Joint joint, const VectorXd& parameters, const VectorXd& standa
 
 MeasurementGains measurement_gains(
     const FitInput& input, const FitModels& models, const VectorXd& parameters, double deviation,
-    const fs::path& folder, const JobContext& context,
+    double misfit, double scatter, const fs::path& folder, const JobContext& context,
     const std::function<bool(double share, const std::string& name)>& go_on) {
-  const Joint known = joint_of(input, models, parameters, deviation);
+  Joint known = joint_of(input, models, parameters, deviation);
+  known.misfit = misfit, known.scatter = scatter;
   MeasurementGains result{known.covariance(), {}};
   const VectorXd before = result.covariance.diagonal().cwiseSqrt();
   const Noise noise(curves_of(input), deviation);
@@ -331,10 +372,11 @@ MeasurementGains measurement_gains(
         joint = with_blank(known, parameters, before, noise);
       } else if (candidate.input) {
         const FitModels own(*candidate.input, folder / "next" / candidate.name, context, own_go_on);
-        joint = with_press(known, input, *candidate.input, own, parameters, noise);
-      } else {
         joint =
-            with_press(known, input, made_anew(input, candidate.depth), models, parameters, noise);
+            with_press(known, input, *candidate.input, own, parameters, noise, known.made.size());
+      } else {
+        joint = with_press(known, input, made_anew(input, candidate.depth), models, parameters,
+                           noise, known.made.front().kind);
       }
       const VectorXd after = joint.covariance().diagonal().cwiseSqrt().head(before.size());
       entry.times = before.cwiseQuotient(after).cwiseMax(1.0);

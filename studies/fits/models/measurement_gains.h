@@ -50,12 +50,14 @@ struct MeasurementGains {
   std::vector<calibration::MeasurementGain> gains;
 };
 
-/// `deviation` of every force where curves have no sigma. Presses of candidates are computed in
-/// `folder`/next, jobs by `context`; one that fails says so in its entry. `go_on` hears the
-/// share of candidates that are done and which one is at work; false ends it with Interrupted.
+/// `deviation` of every force where curves have no sigma; `misfit` and `scatter`: those of what the
+/// models miss, common to presses alike, and of factors between presses. Presses of candidates are
+/// computed in `folder`/next, jobs by `context`; one that fails says so in its entry. `go_on` hears
+/// the share of candidates that are done and which one is at work; false ends it with Interrupted.
 MeasurementGains measurement_gains(
     const FitInput& input, const FitModels& models, const Eigen::VectorXd& parameters,
-    double deviation, const std::filesystem::path& folder, const JobContext& context,
+    double deviation, double misfit, double scatter, const std::filesystem::path& folder,
+    const JobContext& context,
     const std::function<bool(double share, const std::string& name)>& go_on);
 
 }  // namespace fingertip::studies::inline fits::inline models

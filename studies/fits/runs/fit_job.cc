@@ -190,6 +190,11 @@ calibration::CurveFit search(FitInput& input, const FitModels& models) {
   return calibration::fit_curves(curves_of(input), models.addresses(), input.options);
 }
 
+/// Of factors between repeats; 0: there are none.
+double scatter_of(const calibration::FitRecord& record) {
+  return record.errors && record.errors->scatter > 0.0 ? record.errors->scatter : 0.0;
+}
+
 void run_fit(FitInput input, const fs::path& folder, const JobContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   const int budget = input.options.max_evaluations;
@@ -224,13 +229,15 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   record.lack_of_fit =
       score_tests_of(input, searched, input.options, models, scatter(record.repeats));
   if (record.fit.converged && !input.candidates.empty())
-    record.next = measurement_gains(input, models, record.fit.estimates,
-                                    record.fit.residual_deviation, folder, context,
-                                    [&](double, const std::string& name) {
-                                      stage = "further measurement, " + name;
-                                      return go_on();
-                                    })
-                      .gains;
+    record.next =
+        measurement_gains(input, models, record.fit.estimates,
+                          record.errors ? record.errors->noise : record.fit.residual_deviation,
+                          record.misfit_size, scatter_of(record), folder, context,
+                          [&](double, const std::string& name) {
+                            stage = "further measurement, " + name;
+                            return go_on();
+                          })
+            .gains;
   record.rig = rig_values(input);
   for (std::size_t i = 0; has_travels(input) && i < input.curves.size(); ++i)
     record.indentation.push_back(models.indentations(i, record.fit.estimates));

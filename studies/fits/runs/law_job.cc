@@ -8,7 +8,6 @@
 
 #include "calibration/material_tests/law_card.h"
 #include "calibration/material_tests/law_record.h"
-#include "calibration/material_tests/law_zeros.h"
 #include "meshes/tables/fields_json.h"
 #include "meshes/tables/table_rows.h"
 #include "source_hash.h"
@@ -139,8 +138,7 @@ std::vector<LawFit> ranked_between_plates(LawInput& input, const JobContext& con
 }
 
 void run_laws(LawInput input, const fs::path& folder, const JobContext& context) {
-  std::vector<LawFit> ranking = ranked_between_plates(input, context);
-  add_zeros_that_show(input.tests.fitted, ranking, input.options);
+  const std::vector<LawFit> ranking = ranked_between_plates(input, context);
   const std::vector<MaterialTest>&fitted = input.tests.fitted, &validation = input.tests.validation;
   const calibration::LawsFile file = laws_file(ranking, fitted, validation, input.options.weights);
   meshes::write_json_file(file, folder / "laws.json");

@@ -125,12 +125,12 @@ void run_plan(FitInput input, const PlannedNoise& noise, const fs::path& folder,
   for (std::size_t i = 0; i < input.curves.size(); ++i)
     static_cast<calibration::Curve&>(input.curves[i]) =
         as_if_measured(input, models, i, at, stated);
-  const MeasurementGains found = measurement_gains(input, models, at, 0.0, folder, context,
-                                                   [&](double done, const std::string& name) {
-                                                     share = 0.5 + 0.5 * done;
-                                                     stage = "further measurement, " + name;
-                                                     return go_on();
-                                                   });
+  const MeasurementGains found = measurement_gains(
+      input, models, at, 0.0, 0.0, 0.0, folder, context, [&](double done, const std::string& name) {
+        share = 0.5 + 0.5 * done;
+        stage = "further measurement, " + name;
+        return go_on();
+      });
   PlanFile plan = file_of(input, noise, at, found);
   plan.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   meshes::write_json_file(plan, folder / plan_name);

@@ -82,10 +82,10 @@ std::string way_of(const LawTestEntry& test) {
 }
 
 Table test_table(const LawEntry& law) {
-  Table table{heads({"Test", "Points", "Error\nrms", "Error\nlargest", "Within",
-                     "Loop\nmeasured, J/m³", "Loop\nof the law", "Residuals"}),
+  Table table{heads({"Test", "Points", "Error\nrms", "Error\nlargest", "Missed\nsmoothly",
+                     "Over the\nlaw's stress", "Within", "Loop\nmeasured, J/m³",
+                     "Loop\nof the law"}),
               true};
-  table.header.back().words = true;
   for (const LawTestEntry& test : law.tests) {
     const double error = test.loop_computed / test.loop_measured - 1.0;
     table.rows.push_back(
@@ -93,13 +93,14 @@ Table test_table(const LawEntry& law) {
          count(double(test.points)),
          magnitude_cell(test.rms_relative),
          magnitude_cell(test.largest_relative),
+         percent_magnitude(test.misfit),
+         number(test.factor),
          percent_magnitude(test.within),
          number(test.loop_measured),
-         {number(test.loop_computed), if_known(error, percent(error)), grade(error)},
-         prose(test.structure.statement)});
+         {number(test.loop_computed), if_known(error, percent(error)), grade(error)}});
   }
   const auto has_loop = [](const auto& test) { return std::isfinite(test.loop_measured); };
-  if (std::ranges::none_of(law.tests, has_loop)) table.drop_column(6), table.drop_column(5);
+  if (std::ranges::none_of(law.tests, has_loop)) table.drop_column(8), table.drop_column(7);
   return table;
 }
 
