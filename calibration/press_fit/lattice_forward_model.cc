@@ -91,8 +91,20 @@ void check(const PressSetup& setup, const std::vector<MaterialParameter>& parame
   if (!found.empty()) throw meshes::InvalidInput(found);
 }
 
-/// To so many decimals two Poisson's ratios are one: what E/(2G) - 1 makes of round-off.
-constexpr double ratio_steps = 1e13;
+/// Forces at the samples and their slopes by the press's parameters.
+CurveSlopes pressed(const PressSetup& setup, const std::vector<PressParameter>& parameters,
+                    const std::function<bool()>& go_on) {
+  lattice::StaticObserver observer;
+  if (go_on) observer = [&](const lattice::StaticOutcome&, double) { return go_on(); };
+  const auto press = lattice::run_static_press_with_slopes(setup, parameters, observer);
+  const auto& samples = press.outcome.response.samples();
+  CurveSlopes result;
+  result.value.resize(Eigen::Index(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    result.value(Eigen::Index(i)) = samples[i].normal_force;
+  result.jacobian = press.slopes.normal_force;
+  return result;
+}
 
 }  // namespace
 
@@ -164,34 +176,24 @@ Eigen::MatrixXd LatticeForwardModel::chain(const PressSetup& setup) const {
 }
 
 CurveSlopes LatticeForwardModel::press(const PressSetup& setup) const {
-  lattice::StaticObserver observer;
-  if (go_on_) observer = [this](const lattice::StaticOutcome&, double) { return go_on_(); };
-  const auto press = lattice::run_static_press_with_slopes(setup, press_parameters_, observer);
-  const auto& samples = press.outcome.response.samples();
-  CurveSlopes result;
-  result.value.resize(Eigen::Index(samples.size()));
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    result.value(Eigen::Index(i)) = samples[i].normal_force;
-  result.jacobian = press.slopes.normal_force * chain(setup);
+  CurveSlopes result = pressed(setup, press_parameters_, go_on_);
+  result.jacobian *= chain(setup);
   return result;
 }
 
-const CurveSlopes& LatticeForwardModel::at_ratio(double poissons_ratio) {
-  const auto known = by_ratio_.find(poissons_ratio);
-  if (known != by_ratio_.end()) return known->second;
-  PressSetup setup = setup_;
-  setup.rubber.youngs_modulus = 2.0 * setup.rubber.shear_modulus * (1.0 + poissons_ratio);
-  if (setup.lattice.model == ModelKind::hookean)
-    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
-  return by_ratio_[poissons_ratio] = press(setup);
+CurveSlopes LatticeForwardModel::evaluate(const Eigen::VectorXd& parameters) {
+  return press(setup_with(parameters));
 }
 
-CurveSlopes LatticeForwardModel::evaluate(const Eigen::VectorXd& parameters) {
-  const PressSetup setup = setup_with(parameters);
-  if (!std::ranges::all_of(parameters_, is_modulus)) return press(setup);
-  const double ratio = std::round(setup.rubber.poissons_ratio() * ratio_steps) / ratio_steps;
-  CurveSlopes result = at_ratio(ratio);
-  result.value *= setup.rubber.shear_modulus / setup_.rubber.shear_modulus;
+CurveSlopes LatticeByRatio::evaluate(const Eigen::VectorXd& poissons_ratio) {
+  PressSetup setup = setup_;
+  const double g = setup.rubber.shear_modulus;
+  setup.rubber.youngs_modulus = 2.0 * g * (1.0 + poissons_ratio(0));
+  if (setup.lattice.model == ModelKind::hookean)
+    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  CurveSlopes result = pressed(setup, {}, go_on_);
+  result.value /= g;
+  result.jacobian.resize(result.value.size(), 0);
   return result;
 }
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <map>
+#include <utility>
 #include <vector>
 
 #include "calibration/material/material_parameter.h"
@@ -20,8 +20,8 @@ double value_of(MaterialParameter parameter, const lattice::PressSetup& setup);
 /// The static lattice: normal forces at protocol.samples by run_static_press_with_slopes.
 /// E and G become constants of hookean by k1 = k2 = aG, k3 = 0, kappa = lambda - G, whatever the
 /// setup's constants were, and go to the network as they are. What is not among the parameters
-/// stays as in the setup. Where moduli alone are sought, forces are proportional to them at held
-/// Poisson's ratio, so that a press is done once per ratio, at the setup's own G.
+/// stays as in the setup. Every answer is a press (ScaledModel asks few where moduli alone are
+/// sought).
 class LatticeForwardModel final : public ForwardModel {
  public:
   /// Throws InvalidInput for an empty list, a parameter that the setup's model does not have, one
@@ -41,14 +41,27 @@ class LatticeForwardModel final : public ForwardModel {
   /// d(press parameters)/d(parameters), rows as in press_parameters_.
   Eigen::MatrixXd chain(const lattice::PressSetup& setup) const;
   CurveSlopes press(const lattice::PressSetup& setup) const;
-  /// At this Poisson's ratio and the setup's own G.
-  const CurveSlopes& at_ratio(double poissons_ratio);
 
   lattice::PressSetup setup_;
   std::vector<MaterialParameter> parameters_;
   std::vector<lattice::PressParameter> press_parameters_;
   std::function<bool()> go_on_;
-  std::map<double, CurveSlopes> by_ratio_;  ///< answers by Poisson's ratio, where moduli are all
+};
+
+/// F/G of the static lattice by Poisson's ratio, its one parameter, at the setup's own G: what
+/// ScaledModel asks, which needs no slopes; the Jacobian has no column.
+class LatticeByRatio final : public ForwardModel {
+ public:
+  /// `go_on` as above.
+  explicit LatticeByRatio(lattice::PressSetup setup, std::function<bool()> go_on = {})
+      : setup_(std::move(setup)), go_on_(std::move(go_on)) {}
+
+  /// Throws as LatticeForwardModel does.
+  CurveSlopes evaluate(const Eigen::VectorXd& poissons_ratio) override;
+
+ private:
+  lattice::PressSetup setup_;
+  std::function<bool()> go_on_;
 };
 
 }  // namespace fingertip::calibration::inline press_fit

@@ -45,8 +45,12 @@ void RememberedModel::refuse(int line, const std::string& value, const std::stri
 
 /// Reads lines up to the last end of a line; the rest is cut off once they have proved to be ours.
 RememberedModel::RememberedModel(ForwardModel& model, std::filesystem::path file, Index values,
-                                 Index parameters, const std::string& what)
-    : model_(&model), file_(std::move(file)), values_(values), parameters_(parameters) {
+                                 Index parameters, const std::string& what, Slopes slopes)
+    : model_(&model),
+      file_(std::move(file)),
+      values_(values),
+      parameters_(parameters),
+      columns_(slopes == Slopes::known ? parameters : 0) {
   const std::string header =
       json{{"model", what}, {"values", values}, {"parameters", parameters}}.dump();
   std::ifstream in(file_, std::ios::binary);
@@ -75,11 +79,11 @@ void RememberedModel::read_answer(const std::string& line, int number) {
       answer.not_converged = found.at("not_converged").get<std::string>();
     } else {
       answer.slopes.value = to_vector(found.at("value"), values_);
-      answer.slopes.jacobian.resize(values_, parameters_);
+      answer.slopes.jacobian.resize(values_, columns_);
       const json& rows = found.at("jacobian");
       if (Index(rows.size()) != values_) refuse(number, "jacobian", "it has a row per value");
       for (Index i = 0; i < values_; ++i)
-        answer.slopes.jacobian.row(i) = to_vector(rows.at(std::size_t(i)), parameters_);
+        answer.slopes.jacobian.row(i) = to_vector(rows.at(std::size_t(i)), columns_);
     }
     answers_[key(at)] = std::move(answer);
   } catch (const json::exception& error) {
@@ -125,7 +129,7 @@ CurveSlopes RememberedModel::evaluate(const VectorXd& parameters) {
   }
   const CurveSlopes& slopes = answer.slopes;
   if (slopes.value.size() != values_ || slopes.jacobian.rows() != values_ ||
-      slopes.jacobian.cols() != parameters_)
+      slopes.jacobian.cols() != columns_)
     throw meshes::InvalidInput({file_.string(), std::to_string(slopes.value.size()) + " values",
                                 "the model must have the sizes it was announced with",
                                 "announce its own"});

@@ -16,16 +16,19 @@ namespace fingertip::calibration::inline press_fit {
 ///
 /// The file has a line of JSON per answer: first {"model", "values", "parameters"}, what it belongs
 /// to; then {"at": [...], "value": [...], "jacobian": [[...], ...]}, rows by values, or
-/// {"at": [...], "not_converged": "why"}. Numbers read back to the same bits. A line is written at
-/// once when its answer is known; a last line without its end, cut by the end of a run, is removed.
+/// {"at": [...], "not_converged": "why"}; a model of no slopes has rows without entries. Numbers
+/// read back to the same bits. A line is written at once when its answer is known; a last line
+/// without its end, cut by the end of a run, is removed.
 class RememberedModel final : public ForwardModel {
  public:
+  enum class Slopes { known, none };
+
   /// Keeps a reference to `model`, which has so many `values` and `parameters`; `what` says
-  /// everything that its answers depend on besides. Throws InvalidInput naming file and line for a
-  /// file of another model or other sizes and for lines that are not as above;
-  /// std::runtime_error where the file cannot be written.
+  /// everything that its answers depend on besides; of no slopes its Jacobian has no column. Throws
+  /// InvalidInput naming file and line for a file of another model or other sizes and for lines
+  /// that are not as above; std::runtime_error where the file cannot be written.
   RememberedModel(ForwardModel& model, std::filesystem::path file, Eigen::Index values,
-                  Eigen::Index parameters, const std::string& what);
+                  Eigen::Index parameters, const std::string& what, Slopes slopes = Slopes::known);
 
   /// Throws as the model does; NotConverged is remembered like an answer. Answers that are not
   /// finite are not remembered.
@@ -49,7 +52,7 @@ class RememberedModel final : public ForwardModel {
 
   ForwardModel* model_;
   std::filesystem::path file_;
-  Eigen::Index values_, parameters_;
+  Eigen::Index values_, parameters_, columns_;
   std::map<Key, Answer> answers_;
 };
 

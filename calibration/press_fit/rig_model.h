@@ -53,6 +53,9 @@ class RigModel final : public ForwardModel {
   /// compliance takes back more than the press gives, where shares of branches sum to 1, and as the
   /// press does.
   CurveSlopes evaluate(const Eigen::VectorXd& parameters) override;
+  bool refine(const Eigen::VectorXd& parameters) override {
+    return press_->refine(parameters.head(press_parameters_));
+  }
 
   /// The indentations of the last evaluation, one per position, 0 before touch [m].
   const Eigen::VectorXd& indentation() const { return indentation_; }

@@ -164,14 +164,18 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   if (models.size() != curves.size())
     throw meshes::InvalidInput({"models", std::to_string(models.size()),
                                 "every curve needs its model", "give one per curve"});
-  CurveResiduals residuals(curves, models, options);
-
   CurveFit fit;
   fit.parameters = parameters_in(options);
   for (const FreeParameter& free : options.free) fit.labels.push_back(label(free));
-  fit.minima = minima_from(residuals, options);
-  const bool open = !residuals.has_sigma() && residuals.priors() > 0;
-  if (open && options.value_deviation == 0.0) agree_with_priors(residuals, options, fit.minima);
+  // Anew from all starts where models have learnt at the end of a search: another may lead further.
+  std::optional<CurveResiduals> latest;
+  do {
+    latest.emplace(curves, models, options);
+    fit.minima = minima_from(*latest, options);
+    const bool open = !latest->has_sigma() && latest->priors() > 0;
+    if (open && options.value_deviation == 0.0) agree_with_priors(*latest, options, fit.minima);
+  } while (latest->refine(best_of(fit.minima, *latest).estimates));
+  CurveResiduals& residuals = *latest;
   residuals.allow(std::numeric_limits<int>::max());
   const Minimum& best = best_of(fit.minima, residuals);
   fit.estimates = best.estimates;

@@ -187,18 +187,22 @@ double CurveResiduals::loss_of_standard_error(double loss) const {
   return std::max(unit, noise_);
 }
 
-std::vector<CurveSlopes> CurveResiduals::evaluate(const Eigen::VectorXd& parameters) const {
+std::vector<ForwardModel*> CurveResiduals::distinct_models() const {
   std::vector<ForwardModel*> distinct;
   for (ForwardModel* model : *models_)
     if (std::ranges::find(distinct, model) == distinct.end()) distinct.push_back(model);
-  std::vector<CurveSlopes> answers(distinct.size());
-  std::vector<std::exception_ptr> errors(distinct.size());
+  return distinct;
+}
+
+void CurveResiduals::side_by_side(std::size_t count,
+                                  const std::function<void(std::size_t)>& act) const {
+  std::vector<std::exception_ptr> errors(count);
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> failed = false;
   const auto work = [&] {
-    for (std::size_t i = next++; i < distinct.size() && !failed; i = next++) {
+    for (std::size_t i = next++; i < count && !failed; i = next++) {
       try {
-        answers[i] = distinct[i]->evaluate(parameters);
+        act(i);
       } catch (...) {
         errors[i] = std::current_exception();
         failed = true;
@@ -207,17 +211,33 @@ std::vector<CurveSlopes> CurveResiduals::evaluate(const Eigen::VectorXd& paramet
   };
   {
     std::vector<std::jthread> others;
-    for (std::size_t t = 1; t < std::min(std::size_t(options_->threads), distinct.size()); ++t)
+    for (std::size_t t = 1; t < std::min(std::size_t(options_->threads), count); ++t)
       others.emplace_back(work);
     work();
   }
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
+}
+
+std::vector<CurveSlopes> CurveResiduals::evaluate(const Eigen::VectorXd& parameters) const {
+  const std::vector<ForwardModel*> distinct = distinct_models();
+  std::vector<CurveSlopes> answers(distinct.size());
+  side_by_side(distinct.size(),
+               [&](std::size_t i) { answers[i] = distinct[i]->evaluate(parameters); });
   std::vector<CurveSlopes> per_curve;
   for (ForwardModel* model : *models_)
     per_curve.push_back(
         answers[std::size_t(std::ranges::find(distinct, model) - distinct.begin())]);
   return per_curve;
+}
+
+bool CurveResiduals::refine(const Eigen::VectorXd& parameters) const {
+  const std::vector<ForwardModel*> distinct = distinct_models();
+  std::atomic<bool> others = false;
+  side_by_side(distinct.size(), [&](std::size_t i) {
+    if (distinct[i]->refine(parameters)) others = true;
+  });
+  return others;
 }
 
 const Linearisation& CurveResiduals::told(const Known& known) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <functional>
 #include <limits>
 #include <list>
 #include <utility>
@@ -60,6 +61,8 @@ class CurveResiduals {
   /// finite, Interrupted where options.progress says so, EvaluationsSpent instead of evaluating
   /// more than allowed.
   const Linearisation& at(const Eigen::VectorXd& parameters);
+  /// ForwardModel::refine of all models; true: what was evaluated so far is of no use any more.
+  bool refine(const Eigen::VectorXd& parameters) const;
   /// Points evaluated so far.
   int evaluations() const { return evaluations_; }
   /// So many evaluations, those of the past included, may be made; without limit at first.
@@ -83,6 +86,9 @@ class CurveResiduals {
   };
 
   std::vector<CurveSlopes> evaluate(const Eigen::VectorXd& parameters) const;
+  std::vector<ForwardModel*> distinct_models() const;
+  /// Calls `act` with 0 ... count - 1, options.threads at a time; the first error goes on.
+  void side_by_side(std::size_t count, const std::function<void(std::size_t)>& act) const;
   void whiten(const Eigen::VectorXd& values, const Eigen::VectorXd& sigma);
   std::vector<Eigen::VectorXd> by_curve(const Eigen::VectorXd& all) const;
   const Linearisation& told(const Known& known);

@@ -19,6 +19,9 @@ class ForwardModel {
   /// no answer, Interrupted where it is told to stop. Different models may be evaluated side by
   /// side, one model is not.
   virtual CurveSlopes evaluate(const Eigen::VectorXd& parameters) = 0;
+  /// A search has ended there. A model that interpolates learns what it lacks; true: its answers
+  /// are others now. Not for ever: who asks goes on as long as it is. Throws as `evaluate`.
+  virtual bool refine(const Eigen::VectorXd& /*parameters*/) { return false; }
 };
 
 }  // namespace fingertip::calibration::inline statistics

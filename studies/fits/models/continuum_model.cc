@@ -65,7 +65,7 @@ ReferenceJob at_ratio(const ReferenceJob& reference, double poissons_ratio) {
 
 calibration::ScaledModel continuum_model(
     const ReferenceJob& reference, const std::vector<calibration::MaterialParameter>& parameters,
-    const std::string& place, const JobContext& context) {
+    const std::string& place, const JobContext& context, calibration::ScaledModel::Use use) {
   const auto solve = [reference, place,
                       run_all = context.run_all](const std::vector<double>& ratios) {
     std::vector<PlannedJob> jobs;
@@ -75,7 +75,7 @@ calibration::ScaledModel continuum_model(
     for (const fs::path& folder : run_all(jobs)) forces.push_back(scaled_forces(folder, reference));
     return forces;
   };
-  return {solve, parameters, reference.rubber, lowest_ratio(reference)};
+  return {solve, parameters, reference.rubber, lowest_ratio(reference), use};
 }
 
 }  // namespace fingertip::studies::inline fits::inline models

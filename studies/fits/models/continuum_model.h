@@ -25,6 +25,7 @@ double lowest_ratio(const fem_reference::ReferenceJob& reference);
 calibration::ScaledModel continuum_model(
     const fem_reference::ReferenceJob& reference,
     const std::vector<calibration::MaterialParameter>& parameters, const std::string& place,
-    const JobContext& context);
+    const JobContext& context,
+    calibration::ScaledModel::Use use = calibration::ScaledModel::Use::search);
 
 }  // namespace fingertip::studies::inline fits::inline models

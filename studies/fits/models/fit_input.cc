@@ -1,5 +1,7 @@
 #include "studies/fits/models/fit_input.h"
 
+#include <algorithm>
+
 namespace fingertip::studies::inline fits::inline models {
 
 using calibration::MaterialParameter;
@@ -30,6 +32,10 @@ std::vector<MaterialParameter> parameters_of(const FitInput& input) {
   for (const auto& free : input.options.free)
     if (!calibration::is_behind_the_press(free.parameter)) parameters.push_back(free.parameter);
   return parameters;
+}
+
+bool seeks_moduli_alone(const FitInput& input) {
+  return std::ranges::all_of(parameters_of(input), calibration::is_of_the_rubber);
 }
 
 bool asks_one_press(const FitInput& input) {

@@ -108,6 +108,10 @@ std::vector<calibration::Curve> curves_of(const FitInput& input);
 /// Of `input.options.free`, without those of rigs and relaxation, which stand behind them.
 std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input);
 
+/// Whether forces are a modulus times a function of Poisson's ratio, of the lattice's ties, too,
+/// which are as stiff as its cells: few presses of every curve then tell everything.
+bool seeks_moduli_alone(const FitInput& input);
+
 /// Whether forces are proportional to all that is sought of the rubber: a press of every curve then
 /// tells everything, whatever rig and relaxation.
 bool asks_one_press(const FitInput& input);

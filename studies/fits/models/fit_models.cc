@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 
 #include "calibration/press_fit/damping_models.h"
 #include "calibration/press_fit/lattice_forward_model.h"
+#include "calibration/press_fit/remembered_model.h"
+#include "calibration/press_fit/scaled_model.h"
 #include "calibration/statistics/curve_checks.h"
 #include "lattice/press/setup_fields.h"
 #include "lattice/press/static_press.h"
@@ -67,6 +70,7 @@ class MeasuredPress final : public ForwardModel {
       throw meshes::NotConverged(error.what() + remedy_(error.indentation()));
     }
   }
+  bool refine(const Eigen::VectorXd& parameters) override { return model_->refine(parameters); }
 
  private:
   std::unique_ptr<ForwardModel> model_;
@@ -85,18 +89,39 @@ std::unique_ptr<ForwardModel> ramp_model(lattice::PressSetup setup, const std::v
       calibration::interpolated_force(press.response));
 }
 
+/// Without data nobody searches: a press that is planned is asked for one rubber.
+bool is_planned(const FitCurve& curve) {
+  return curve.y.empty();
+}
+
+/// Whether the lattice is asked at few Poisson's ratios; at one rubber its own slopes are cheaper.
+bool is_scaled(const FitInput& input, std::size_t i) {
+  const FitCurve& curve = input.curves[i];
+  return curve.kind == CurveKind::press && !is_planned(curve) && seeks_moduli_alone(input);
+}
+
+/// Whether one press of the lattice answers for both.
+bool same_lattice(const FitCurve& a, const FitCurve& b) {
+  return a.kind == CurveKind::press && b.kind == CurveKind::press &&
+         is_planned(a) == is_planned(b) && inputs_of(a.press) == inputs_of(b.press);
+}
+
 std::unique_ptr<ForwardModel> model_of(const FitInput& input, std::size_t i,
                                        const JobContext& context,
                                        const std::function<bool()>& go_on) {
+  using Use = calibration::ScaledModel::Use;
   const FitCurve& curve = input.curves[i];
   const std::vector<double>& x = curve.x;
   const std::vector<MaterialParameter> parameters = parameters_of(input);
   switch (curve.kind) {
     case CurveKind::press:
+      if (is_scaled(input, i))
+        return std::make_unique<calibration::LatticeByRatio>(curve.press, go_on);
       return std::make_unique<calibration::LatticeForwardModel>(curve.press, parameters, go_on);
     case CurveKind::continuum:
-      return std::make_unique<calibration::ScaledModel>(continuum_model(
-          curve.continuum, parameters, fmt::format("{}_{}", input.place, i + 1), context));
+      return std::make_unique<calibration::ScaledModel>(
+          continuum_model(curve.continuum, parameters, fmt::format("{}_{}", input.place, i + 1),
+                          context, is_planned(curve) ? Use::near_one_ratio : Use::search));
     case CurveKind::loss_factor: return std::make_unique<calibration::LossFactorModel>(x);
     case CurveKind::creep: return std::make_unique<calibration::CreepModel>(x);
     case CurveKind::ramp: return ramp_model(curve.press, x, go_on);
@@ -195,31 +220,83 @@ ordered_json curve_inputs(const FitInput& input, std::size_t i) {
   return inputs;
 }
 
+/// The press of one curve or of repeats, which ask one after the other.
+class FitModels::Press final : public ForwardModel {
+ public:
+  Press(const FitInput& input, std::size_t i, const fs::path& folder, const JobContext& context,
+        const std::function<bool()>& go_on) {
+    const FitCurve& curve = input.curves[i];
+    model_ = std::make_unique<MeasuredPress>(
+        model_of(input, i, context, go_on),
+        [curve, start = start_of(input.options)](double indentation) {
+          return rows_up_to(curve, start, indentation);
+        });
+    if (curve.kind == CurveKind::continuum) return;
+    using Slopes = calibration::RememberedModel::Slopes;
+    const bool scaled = is_scaled(input, i);
+    remembered_ = std::make_unique<calibration::RememberedModel>(
+        *model_, folder / "evaluations" / fmt::format("curve_{}.jsonl", i + 1),
+        Eigen::Index(curve.travel ? curve.travel->depths.size() : curve.x.size()),
+        Eigen::Index(scaled ? 1 : material_parameters(input)),
+        sha256(curve_inputs(input, i).dump()), scaled ? Slopes::none : Slopes::known);
+    if (scaled) scale(input, i);
+  }
+
+  calibration::CurveSlopes evaluate(const Eigen::VectorXd& parameters) override {
+    const std::lock_guard lock(mutex_);
+    return outermost().evaluate(parameters);
+  }
+  bool refine(const Eigen::VectorXd& parameters) override {
+    const std::lock_guard lock(mutex_);
+    return outermost().refine(parameters);
+  }
+
+ private:
+  ForwardModel& outermost() {
+    if (scaled_) return *scaled_;
+    return remembered_ ? *remembered_ : *model_;
+  }
+
+  void scale(const FitInput& input, std::size_t i) {
+    const lattice::PressSetup& setup = input.curves[i].press;
+    const auto solve = [this](const std::vector<double>& ratios) {
+      std::vector<Eigen::VectorXd> answers;
+      for (const double nu : ratios)
+        answers.push_back(remembered_->evaluate(Eigen::VectorXd::Constant(1, nu)).value);
+      return answers;
+    };
+    // The energy of law A falls without bound for lambda < 0.
+    const bool finite = setup.lattice.kinematics == lattice::Kinematics::finite;
+    scaled_ = std::make_unique<calibration::ScaledModel>(solve, parameters_of(input), setup.rubber,
+                                                         finite ? 0.0 : -0.9);
+  }
+
+  std::mutex mutex_;
+  std::unique_ptr<ForwardModel> model_;
+  std::unique_ptr<calibration::RememberedModel> remembered_;  ///< of `model_`
+  std::unique_ptr<calibration::ScaledModel> scaled_;          ///< of lattices by moduli alone
+};
+
 FitModels::FitModels(const FitInput& input, const fs::path& folder, const JobContext& context,
                      const std::function<bool()>& go_on) {
   fs::create_directories(folder / "evaluations");
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const FitCurve& curve = input.curves[i];
-    Answer& answer = answers_.emplace_back();
-    answer.model = std::make_unique<MeasuredPress>(
-        model_of(input, i, context, go_on),
-        [curve, start = start_of(input.options)](double indentation) {
-          return rows_up_to(curve, start, indentation);
-        });
-    answer.remembered = std::make_unique<calibration::RememberedModel>(
-        *answer.model, folder / "evaluations" / fmt::format("curve_{}.jsonl", i + 1),
-        Eigen::Index(curve.travel ? curve.travel->depths.size() : curve.x.size()),
-        Eigen::Index(material_parameters(input)), sha256(curve_inputs(input, i).dump()));
+    Answer answer;
+    for (std::size_t j = 0; j < i && !answer.press; ++j)
+      if (same_lattice(input.curves[j], curve)) answer.press = answers_[j].press;
+    if (!answer.press) answer.press = std::make_shared<Press>(input, i, folder, context, go_on);
+    answers_.push_back(std::move(answer));
     if (curve.travel)
-      answer.rig = behind_rig(input, i, curve.travel->rig, curve,
-                              Eigen::Index(input.options.free.size()), input.branches);
+      answers_.back().rig = behind_rig(input, i, curve.travel->rig, curve,
+                                       Eigen::Index(input.options.free.size()), input.branches);
   }
 }
 
 std::vector<ForwardModel*> FitModels::addresses() const {
   std::vector<ForwardModel*> result;
   for (const Answer& each : answers_)
-    result.push_back(each.rig ? static_cast<ForwardModel*>(each.rig.get()) : each.remembered.get());
+    result.push_back(each.rig ? static_cast<ForwardModel*>(each.rig.get()) : each.press.get());
   return result;
 }
 
@@ -228,12 +305,12 @@ std::unique_ptr<calibration::RigModel> FitModels::behind_rig(
     const calibration::Curve& curve, Eigen::Index parameters,
     const std::vector<calibration::FitBranch>& branches) const {
   return std::make_unique<calibration::RigModel>(
-      *answers_[i].remembered, input.curves[i].press.protocol.samples,
+      *answers_[i].press, input.curves[i].press.protocol.samples,
       Eigen::Index(material_parameters(input)), rig, curve.x, curve.time, parameters, branches);
 }
 
 Eigen::VectorXd FitModels::press_forces(std::size_t i, const Eigen::VectorXd& rubber) const {
-  return answers_[i].remembered->evaluate(rubber).value;
+  return answers_[i].press->evaluate(rubber).value;
 }
 
 std::vector<double> FitModels::indentations(std::size_t i,

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "calibration/press_fit/remembered_model.h"
 #include "calibration/press_fit/rig_model.h"
 #include "studies/fits/models/fit_input.h"
 #include "studies/jobs/job.h"
@@ -17,8 +16,9 @@ namespace fingertip::studies::inline fits::inline models {
 /// What the answers for curve `i` depend on, and its data.
 nlohmann::ordered_json curve_inputs(const FitInput& input, std::size_t i);
 
-/// Models, and what remembers their answers in the folder's evaluations/. Behind a rig it is the
-/// press itself that is remembered.
+/// Models, and what remembers their answers in the folder's evaluations/. Behind a rig, and where
+/// moduli alone are sought, it is the press itself that is remembered; a continuum's are jobs.
+/// Repeats share the lattice's press.
 class FitModels {
  public:
   /// Jobs are carried out by `context`; `go_on` is asked while a model computes.
@@ -43,9 +43,9 @@ class FitModels {
   std::vector<double> indentations(std::size_t i, const Eigen::VectorXd& parameters) const;
 
  private:
+  class Press;
   struct Answer {
-    std::unique_ptr<calibration::ForwardModel> model;
-    std::unique_ptr<calibration::RememberedModel> remembered;
+    std::shared_ptr<Press> press;                ///< of the rubber's parameters
     std::unique_ptr<calibration::RigModel> rig;  ///< of travels
   };
   std::vector<Answer> answers_;  ///< per curve

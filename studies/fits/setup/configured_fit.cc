@@ -211,9 +211,10 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit, Presses p
 /// How long the search may take is said before it begins.
 void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
   const bool costs = std::ranges::any_of(fit.input.curves, is_lattice) &&
-                     (fit.input.branches.empty() || !asks_one_press(fit.input));
+                     !(has_presses(fit.input) && seeks_moduli_alone(fit.input));
   if (!costs && !loaded.entries.at("calibration.evaluations").given) return;
   fit.input.options.max_evaluations = loaded.config.calibration.evaluations;
+  if (!costs) return;
   fit.notes.push_back(
       fmt::format("the search may do {} evaluations (calibration.evaluations), each "
                   "a press of every curve",

@@ -402,6 +402,41 @@ TEST(CurveFit, EvaluatesEachModelOnceAndTellsTheFirstError) {
   }
 }
 
+namespace {
+
+/// y = p² x by its tangent, drawn where a search has ended.
+class Tangent final : public ForwardModel {
+ public:
+  explicit Tangent(VectorXd x) : x_(std::move(x)) {}
+  CurveSlopes evaluate(const VectorXd& p) override {
+    return {(2.0 * p(0) - at_) * at_ * x_, 2.0 * at_ * x_};
+  }
+  bool refine(const VectorXd& p) override {
+    const bool apart = std::abs(p(0) - at_) > 1e-12;
+    at_ = p(0);
+    ++drawn;
+    return apart;
+  }
+  int drawn = 0;
+
+ private:
+  VectorXd x_;
+  double at_ = 1.0;
+};
+
+}  // namespace
+
+/// Searches by tangents are Heron's rule for a root; one model serves both curves and learns once.
+TEST(CurveFit, SearchesAnewWhereModelsHaveLearnt) {
+  const Curve data{.name = "", .x = {1.0, 2.0}, .y = {2.0, 4.0}, .sigma = {}};
+  Tangent model(Eigen::Vector2d(1.0, 2.0));
+  CurveFitOptions options;
+  options.free = {{.parameter = kappa, .start = 1.0}};
+  const CurveFit fit = fit_curves({data, data}, {&model, &model}, options);
+  EXPECT_NEAR(fit.estimates(0), std::numbers::sqrt2, 1e-12);
+  EXPECT_EQ(model.drawn, 6) << "1.5, 1.4167, 1.414216, ...: digits double";
+}
+
 TEST(CurveFit, IsInterruptedBetweenAndWithinEvaluations) {
   const std::vector<Curve> curves = {synthetic(ContactMode::stick, {4e-4, 8e-4}, 0.01, 1, true)};
   CurveFitOptions options = e_and_g();

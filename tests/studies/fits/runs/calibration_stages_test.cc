@@ -8,11 +8,13 @@
 #include <fstream>
 
 #include "calibration/files/fit_tables.h"
+#include "calibration/press_fit/lattice_forward_model.h"
 #include "meshes/base/errors.h"
 #include "meshes/tables/csv_table.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/files/json_entry.h"
 #include "studies/fits/runs/fit_corrections.h"
+#include "studies/fits/runs/fit_job.h"
 #include "studies/fits/setup/configured_fit.h"
 #include "studies/jobs/cache.h"
 #include "tests/expectations.h"
@@ -125,4 +127,41 @@ TEST_F(OfTwoContacts, BothStayWhereTheLatticesOwnErrorHidesWhichItIs) {
   EXPECT_LE(own["lower"], other["lower"]);
   EXPECT_GE(own["upper"], other["upper"]);
   EXPECT_TRUE(says(own["interval"].get<std::string>(), "both contacts"));
+}
+
+/// E and G of two contacts, a lattice each: what presses at the truth tell comes back by six or
+/// seven presses, whose answers are kept, and no press is nearly incompressible.
+TEST_F(OfTwoContacts, FewPressesTellEAndG) {
+  FitSetup fit = fit_setup(load_config(
+      {{},
+       {"calibration.problem=experiment",
+        "calibration.data=[\"" + (folder_ / "press.csv").string() + "\", \"" +
+            (folder_ / "press.csv").string() + "\"]",
+        "calibration.conditions=[\"press.contact=frictionless\", \"press.contact=stick\"]",
+        "calibration.candidates=[]", "lattice.spacing=tip_radius/4", "lattice.model=hookean"},
+       {}}));
+  const Eigen::Vector2d truth(59.2e3, 20e3);
+  for (FitCurve& curve : fit.input.curves) {
+    const Eigen::VectorXd forces =
+        calibration::LatticeForwardModel(curve.press, parameters_of(fit.input))
+            .evaluate(truth)
+            .value;
+    curve.y.assign(forces.begin(), forces.end());
+  }
+  JobContext context;
+  context.report = [](double, const std::string&) { return true; };
+  context.log = [](const std::string&) {};
+  fs::create_directories(run_);
+  fit_job(fit.input).run(run_, context);
+  for (Eigen::Index i = 0; i < 2; ++i)
+    EXPECT_NEAR(result()["parameters"][std::size_t(i)]["estimate"].get<double>() / truth(i), 1.0,
+                2e-3);
+  for (const char* name : {"curve_1.jsonl", "curve_2.jsonl"}) {
+    std::ifstream answers(run_ / "evaluations" / name);
+    std::string line;
+    int lines = -1;  // the first says what they belong to
+    while (std::getline(answers, line)) ++lines;
+    EXPECT_GE(lines, 4);
+    EXPECT_LE(lines, 7);
+  }
 }
