@@ -187,16 +187,26 @@ void check_curves(const LoadedConfig& loaded, const FitInput& input,
   }
 }
 
-/// Travels have their rigs. Indentations of the same fit are travels of a rig that is known.
+/// More than a press behind a rig answers at. Of a continuum each row would be a sample that meets
+/// the tolerance; a lattice passes them on its way.
+bool has_many_rows(const FitCurve& curve) {
+  return curve.kind == CurveKind::continuum &&
+         curve.x.size() > calibration::depths_for_rig(curve.x.back()).size();
+}
+
+/// Travels have their rigs. Indentations of the same fit, and such of many rows, are travels of a
+/// rig that is known.
 void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
   FitInput& input = fit.input;
   const auto travels = [](const FitCurve& curve) { return curve.travel.has_value(); };
-  const auto sought = [](const FitCurve& curve) { return curve.zero_is_sought; };
+  const auto asks_rig = [](const FitCurve& curve) {
+    return curve.zero_is_sought || has_many_rows(curve);
+  };
   if (std::ranges::none_of(input.curves, travels)) {
     if (loaded.entries.at("calibration.rig").given)
       throw refused(loaded, "calibration.rig", "", "no file has the column position",
                     "name the travel of the machine so, or leave the rig out");
-    if (input.branches.empty() && std::ranges::none_of(input.curves, sought)) return;
+    if (input.branches.empty() && std::ranges::none_of(input.curves, asks_rig)) return;
   }
   CalibrationSettings rigid;
   // An indentation says that all are zero, but for a load cell whose rows tell its own.

@@ -165,3 +165,27 @@ TEST_F(OfTwoContacts, FewPressesTellEAndG) {
     EXPECT_LE(lines, 7);
   }
 }
+
+/// A continuum would press to each of forty depths at its tolerance: between eighteen ln F is a
+/// cubic. A lattice passes them on its way.
+TEST_F(OfTwoContacts, OfAContinuumManyRowsAreNoSamples) {
+  std::ofstream csv(folder_ / "press.csv");
+  csv << "indentation [mm];force [mN]\n";
+  for (int i = 1; i <= 40; ++i) csv << 0.02 * i << ';' << 1.0 * i << '\n';
+  csv.close();
+  for (const bool continuum : {true, false}) {
+    const FitSetup fit = fit_setup(
+        load_config({{},
+                     {"calibration.problem=experiment",
+                      "calibration.data=[\"" + (folder_ / "press.csv").string() + "\"]",
+                      "calibration.parameters=[\"modulus\"]", "calibration.candidates=[]",
+                      "lattice.kinematics=small",
+                      std::string("calibration.forward=") + (continuum ? "continuum" : "lattice")},
+                     {}}));
+    const FitCurve& curve = fit.input.curves.front();
+    EXPECT_EQ(curve.continuum.protocol.samples.size(), continuum ? 18u : 40u);
+    EXPECT_DOUBLE_EQ(curve.continuum.protocol.samples.back(), 8e-4);
+    EXPECT_EQ(curve.x.size(), 40u);
+    EXPECT_EQ(fit.input.options.free.size(), 1u) << "nothing of a machine is sought";
+  }
+}
