@@ -4,11 +4,13 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "calibration/press_fit/lattice_forward_model.h"
+#include "calibration/press_fit/scaled_model.h"
 #include "calibration/statistics/curve_fit.h"
 #include "calibration/statistics/curve_residuals.h"
 #include "meshes/base/errors.h"
@@ -62,6 +64,19 @@ inline PressSetup with_samples(PressSetup setup, const std::vector<double>& samp
   setup.protocol.samples = samples;
   setup.protocol.depth = samples.back();
   return setup;
+}
+
+/// The lattice as fits of moduli ask it: at few Poisson's ratios.
+inline ScaledModel scaled_press(const PressSetup& setup,
+                                const std::vector<MaterialParameter>& parameters) {
+  const auto solve =
+      [press = std::make_shared<LatticeByRatio>(setup)](const std::vector<double>& ratios) {
+        std::vector<VectorXd> answers;
+        for (const double nu : ratios)
+          answers.push_back(press->evaluate(VectorXd::Constant(1, nu)).value);
+        return answers;
+      };
+  return {solve, parameters, setup.rubber};
 }
 
 /// A condition per curve: how it was pressed and by what lattice it is computed; depth and samples

@@ -89,7 +89,7 @@ TEST(ModelError, CleanDataDoNotAlarmAndBadDataDo) {
   const Continuum truth = continuum();
   for (const double cells : {6.0, 8.0}) {
     const PressSetup setup = at_spacing(cells, truth.depth);
-    LatticeForwardModel model(setup, {modulus});
+    ScaledModel model = scaled_press(setup, {modulus});
     CurveFitOptions options;
     options.free = {{.parameter = modulus, .start = 3000.0}};
     const VectorXd force = VectorXd::Map(truth.force.data(), 10);
@@ -176,7 +176,7 @@ TEST(ModelError, TheModulusAtHeldRatioIsAScale) {
   const CurveSlopes at = model.evaluate(VectorXd::Constant(1, 1e6));
   EXPECT_LT((1e6 * at.jacobian.col(0) - at.value).norm(), 1e-9 * at.value.norm());
   const VectorXd own = model.evaluate(VectorXd::Constant(1, rubber.youngs_modulus)).value;
-  EXPECT_LT((at.value * rubber.youngs_modulus / 1e6 - own).norm(), 1e-12 * own.norm());
+  EXPECT_LT((at.value * rubber.youngs_modulus / 1e6 - own).norm(), 1e-9 * own.norm());
 }
 
 /// Evaluations that do not suffice end a search with the best it has seen, and say so.
