@@ -1,6 +1,7 @@
 #include "fem_reference/job/job.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -42,6 +43,12 @@ void get(const Json& value, T& target) {
   } else {
     target = value.get<T>();
   }
+}
+
+void get(const Json& value, std::vector<meshes::Vector3>& places) {
+  const auto rows = value.get<std::vector<std::array<double, 3>>>();
+  places.clear();
+  for (const std::array<double, 3>& row : rows) places.emplace_back(row.data());
 }
 
 /// The surface stands beside the job.

@@ -7,6 +7,7 @@
 
 #include "fem_reference/job/job.h"
 #include "meshes/press/contact_field.h"
+#include "meshes/press/markers.h"
 #include "meshes/press/press_response.h"
 
 namespace fingertip::fem_reference::inline job {
@@ -19,6 +20,7 @@ struct PressEffort {
 /// What one sample yields, and what it cost.
 struct PressState : meshes::PressSample, PressEffort {
   std::vector<meshes::ContactPoint> contact;  ///< nodes, with their images, that are pushed
+  std::vector<meshes::MarkerRow> markers;     ///< of the protocol
   double node_spacing = 0.0;  ///< of the candidate nodes around the contact edge [m]
   double peak_spacing = 0.0;  ///< of the nodes where pressure is largest [m]
   /// Whether the contact ends within the surface that may touch, so that its edge moves; a pad's

@@ -36,10 +36,10 @@ FINGERTIP_FIELDS(StrainEnergy, law, volumetric, shape);
 consteval auto fields_of(const PressProtocol*) {
   return FINGERTIP_ALL_MEMBERS(PressProtocol, mode, contact, friction, tilt, lateral, lateral_path,
                                twist, lateral_samples, depth, speed, clearance, samples, obstacle,
-                               program)
+                               program, markers)
       .only(&PressProtocol::has_obstacle, "obstacle")
       .only(&PressProtocol::has_twist, "twist")
-      .if_known("program");
+      .if_known("program markers");
 }
 
 consteval auto fields_of(const PressStage*) {

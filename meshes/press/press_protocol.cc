@@ -5,6 +5,7 @@
 #include <string>
 
 #include "meshes/base/files.h"
+#include "meshes/press/markers.h"
 
 namespace fingertip::meshes::inline press {
 
@@ -302,6 +303,8 @@ std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const
             "the last sample must be the depth of the press", "end the samples at press.depth");
   }
   if (!program.empty()) append(found, ProgramRules(*this, geometry).broken());
+  if (!markers.empty() && geometry.violations().empty())
+    append(found, marker_violations(markers, geometry));
   return found;
 }
 

@@ -104,6 +104,9 @@ struct PressProtocol {
   /// depth is the largest indentation then, speed the first stage's. Empty: to `depth` at `speed`,
   /// still moving when it ends.
   std::vector<PressStage> program = {};
+  /// Material points whose displacements are told at the samples: places in the undeformed finger
+  /// [m], in the rubber (markers.h).
+  std::vector<Vector3> markers = {};
 
   /// Whether a second phase follows the press: a lateral motion or a twist at full depth.
   bool moves_after() const {

@@ -45,7 +45,7 @@ class Reader {
       take(key, *parsed_literal(key.preset).get("v"), default_place, false, {});
   }
   void resolve_shape();
-  void resolve_taxels();
+  void resolve_sensors();
   void resolve_card();
   void check_continuum_law();
   /// Files named by a value are relative to `base`: the configuration file's folder.
@@ -190,19 +190,26 @@ void Reader::resolve_shape() {
   }
 }
 
-/// The skin on the finger.
-void Reader::resolve_taxels() {
+/// Skin and markers of the finger.
+void Reader::resolve_sensors() {
   Config& config = loaded_.config;
-  try {
-    if (config.taxels.has_skin())
-      lay_taxels(config.taxels, config.press.geometry, config.press.hardware.skin);
-  } catch (const meshes::InvalidInput& error) {
-    // Else its file cannot be read.
-    const bool of_taxels = error.violations().front().key == "sensor.taxels";
-    append(problems_, (of_taxels ? loaded_.locate(error.violations())
-                                 : refused_file(loaded_, "sensor.taxels", error))
-                          .violations());
-  }
+  lattice::PressSetup& press = config.press;
+  const auto lay = [&](const std::string& key, const auto& sensors) {
+    try {
+      sensors();
+    } catch (const meshes::InvalidInput& error) {
+      // Else their file cannot be read.
+      const bool of_sensors = error.violations().front().key.starts_with("sensor.");
+      append(problems_,
+             (of_sensors ? loaded_.locate(error.violations()) : refused_file(loaded_, key, error))
+                 .violations());
+    }
+  };
+  lay("sensor.taxels", [&] {
+    if (config.taxels.has_skin()) lay_taxels(config.taxels, press.geometry, press.hardware.skin);
+  });
+  lay("sensor.markers",
+      [&] { press.protocol.markers = lay_markers(config.markers, press.geometry); });
 }
 
 /// What the card says takes the place of defaults.
@@ -269,7 +276,7 @@ LoadedConfig Reader::finish() {
   if (config.shape == ShapeKind::dome || !press.geometry.is_dome()) {
     append(broken, press.geometry.violations());
     append(broken, protocol.violations(press.geometry));
-    if (broken.empty()) resolve_taxels();
+    if (broken.empty()) resolve_sensors();
     append(broken, press.hardware.skin.violations());
   }
   const ConfigError located = loaded_.locate(broken);

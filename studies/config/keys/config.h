@@ -13,8 +13,8 @@
 #include "lattice/grasp/grasp.h"
 #include "lattice/press/press_setup.h"
 #include "meshes/base/names.h"
+#include "studies/config/shapes/sensor_file.h"
 #include "studies/config/shapes/solid_file.h"
-#include "studies/config/shapes/taxel_file.h"
 
 namespace fingertip::studies::inline config::inline keys {
 
@@ -218,7 +218,8 @@ struct Config {
   SolidFile solid;                 ///< only for ShapeKind::solid
   std::optional<double> endpoint;  ///< of a profile or solid, on the axis [m]
   ControllerSettings controller;
-  TaxelLayout taxels;  ///< press.hardware.skin has them
+  TaxelLayout taxels;    ///< press.hardware.skin has them
+  MarkerLayout markers;  ///< press.protocol has them
   ConstantsSource constants = ConstantsSource::automatic;
   std::filesystem::path constants_file;           ///< absolute; only for ConstantsSource::file
   std::optional<lattice::Kinematics> kinematics;  ///< as asked for; empty: the model's default

@@ -230,6 +230,26 @@ std::vector<Key> sensor_keys() {
                          member(&HardwareSettings::skin, &meshes::TaxelSkin::depth)),
                 "0 or at least a tenth of the footprint", {"sensor.footprint"}),
   };
+  const auto markers = [](auto way) { return at(&Config::markers, way); };
+  const auto of_grid = [](const char* rule, Key key) {
+    return only_with("sensor.markers", {"grid"},
+                     with_rule(std::move(key), rule, {"sensor.markers"}));
+  };
+  Key places = plain("sensor", "markers", any,
+                     "material points whose displacements markers.csv tells: a grid on the surface "
+                     "that may touch, or a CSV file with columns x [mm],y [mm],z [mm]",
+                     markers(&MarkerLayout::file));
+  places.choices = {{"none", "no markers"},
+                    {"grid", "square as seen along the axis, one marker on it"}};
+  keys.push_back(with_rule(places, "in the rubber, in the undeformed finger", {"geometry.shape"}));
+  keys.push_back(of_grid("at most 10000 markers",
+                         quantity("sensor", "marker_pitch", "mm", "m", positive,
+                                  "between the markers of a grid; auto: a tenth of tip_radius",
+                                  markers(&MarkerLayout::pitch))));
+  keys.push_back(of_grid("in the rubber",
+                         quantity("sensor", "marker_depth", "mm", "m", not_negative,
+                                  "of the markers of a grid below the surface, along its normal",
+                                  markers(&MarkerLayout::depth))));
   add_sensor(keys, "noise", "resolution", "Pa", "a taxel's stresses", &HardwareSettings::taxel,
              "sensor");
   keys.push_back(quantity("sensor", "rate", "Hz", "Hz", not_negative,

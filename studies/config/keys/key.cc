@@ -71,7 +71,7 @@ const std::vector<Section>& sections() {
       {"obstacle", "The rigid obstacle that the finger is pressed against"},
       {"controller", "The 6-degree-of-freedom controller that moves the rod in mode pid"},
       {"hardware", "Sensors and actuators between controller and rod; the defaults are perfect"},
-      {"sensor", "A skin of taxels on the finger, for controllers and taxels.csv"},
+      {"sensor", "Taxels on the finger, and markers, whose displacements are told"},
       {"grasp", "Two fingers that lift a rigid block, with press.contact, press.friction"},
       {"reference", "The continuum (finite elements)"},
       {"calibration", "How spring constants are fitted"},

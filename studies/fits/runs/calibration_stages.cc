@@ -75,10 +75,16 @@ void check_moduli(const LoadedConfig& loaded) {
                           "calibrate central, hookean or network"}});
 }
 
+/// Forces are fitted, and no displacements.
+LoadedConfig without_markers(LoadedConfig loaded) {
+  return loaded.config.press.protocol.markers.empty() ? loaded
+                                                      : with_sets(loaded, {"sensor.markers=none"});
+}
+
 }  // namespace
 
 CalibrationStages::CalibrationStages(LoadedConfig loaded, std::string folder, Failed failed)
-    : loaded_(std::move(loaded)), folder_(std::move(folder)), failed_(failed) {
+    : loaded_(without_markers(std::move(loaded))), folder_(std::move(folder)), failed_(failed) {
   if (loaded_.config.calibration.problem == CalibrationProblem::moduli) {
     check_moduli(loaded_);
   } else {

@@ -54,6 +54,7 @@ TEST(ReferenceJob, SurvivesTheFile) {
   job.protocol.speed = 0.02;
   job.protocol.mode = meshes::DriveMode::equilibrium;
   job.protocol.clearance = 1e-3;
+  job.protocol.markers = {{0.001 / 3.0, -2e-3, 0.0151}, {0.0, 0.0, 0.02}};
   job.analysis = Analysis::verification;
   job.strain = Strain::finite;
   job.rubber.energy.volumetric = VolumetricLaw::isochoric_logarithmic;
@@ -118,6 +119,8 @@ TEST(ReferenceJob, RefusesBadFilesNamingTheEntry) {
   EXPECT_NE(refusal(file, R"({"protocol": {"samples": [0.001], "deph": 1}})").find("protocol.deph"),
             std::string::npos);
   EXPECT_NE(refusal(file, R"({"protocol": {"samples": "deep"}})").find("samples"),
+            std::string::npos);
+  EXPECT_NE(refusal(file, R"({"protocol": {"markers": [[0, 0.009]]}})").find("protocol.markers"),
             std::string::npos);
   EXPECT_NE(refusal(file, R"({"protocol": {"contact": "glue"}})").find("frictionless"),
             std::string::npos);

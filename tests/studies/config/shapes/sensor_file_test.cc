@@ -1,4 +1,4 @@
-#include "studies/config/shapes/taxel_file.h"
+#include "studies/config/shapes/sensor_file.h"
 
 #include <gtest/gtest.h>
 
@@ -90,6 +90,62 @@ TEST(TaxelTable, IsRefused) {
   EXPECT_TRUE(says(refusal("{rings = 1000, per_ring = 1000}"), {"at most 10000 taxels"}));
   EXPECT_TRUE(says(refusal("4"), {"path of a file"}));
   EXPECT_TRUE(says(refusal("no_such.csv"), {"sensor.taxels", "no_such.csv"}));
+}
+
+/// What a configuration with these markers says; `sensor` are further lines of its section.
+std::string refusal_of_markers(const std::string& markers, const std::string& sensor = "") {
+  const TemporaryFolder folder;
+  write_text(folder / "dots.csv", markers);
+  write_text(folder / "case.toml", "[sensor]\nmarkers = \"dots.csv\"\n" + sensor);
+  return config_refusal([&] { config_in(folder / "case.toml"); });
+}
+
+TEST(MarkerFile, HasPlacesInAnyUnit) {
+  const TemporaryFolder folder;
+  write_text(folder / "dots.csv", "z [cm];x [mm];y [mm]\n1;0;0\n0,8;5;0\n-0,5;0;-7\n");
+  const auto markers = lay_markers({.file = folder / "dots.csv"}, {});
+  ASSERT_EQ(markers.size(), 3u);
+  EXPECT_NEAR((markers[1] - meshes::Vector3(5e-3, 0.0, 8e-3)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((markers[2] - meshes::Vector3(0.0, -7e-3, -5e-3)).norm(), 0.0, 1e-15);
+}
+
+TEST(MarkerFile, IsRefusedLineByLine) {
+  const std::string head = "x [mm],y [mm],z [mm]\n";
+  EXPECT_EQ(refusal_of_markers(head + "0,0,10\n0,0,9\n"), "");
+  // All at once.
+  EXPECT_TRUE(says(refusal_of_markers(head + "0,0,11\n0,0,8\n0,0,4\n0,0,8.0005\n"),
+                   {"dots.csv:2", "sensor.markers", "1 mm outside the finger", "(0, 0, 10) mm",
+                    "dots.csv:4", "in the rod, 1 mm from the rubber", "dots.csv:5",
+                    "the place of line 3", "every marker has a place of its own"}));
+  EXPECT_TRUE(says(refusal_of_markers(head + "0,,8\n"), {"dots.csv:2", "a marker has x, y and z"}));
+  EXPECT_TRUE(says(refusal_of_markers(head), {"names no marker"}));
+  EXPECT_TRUE(says(refusal_of_markers("x [mm],y [mm],z\n0,0,8\n"), {"dots.csv:1", "column z"}));
+}
+
+TEST(MarkerGridKeys, LayAGrid) {
+  const auto markers = [](const std::vector<std::string>& sets) {
+    return load_config({{}, sets, {}}).config.press.protocol.markers.size();
+  };
+  EXPECT_EQ(markers({"sensor.markers=grid"}), 241u);  // a tenth of the radius apart
+  EXPECT_LT(markers({"sensor.markers=grid", "sensor.marker_pitch=2 mm"}), 80u);
+  EXPECT_EQ(markers({"sensor.markers=none"}), 0u);
+  const LoadedConfig inert = load_config({{}, {"sensor.marker_pitch=2 mm"}, {}});
+  ASSERT_EQ(inert.notes.size(), 1u);
+  EXPECT_TRUE(says(inert.notes[0], {"sensor.marker_pitch", "no effect", "sensor.markers"}));
+}
+
+TEST(MarkerGridKeys, AreRefused) {
+  const auto refusal = [](const std::string& more) {
+    return config_refusal([&] { load_config({{}, {"sensor.markers=grid", more}, {}}); });
+  };
+  EXPECT_TRUE(says(refusal("sensor.marker_depth=6 mm"),
+                   {"--set sensor.marker_depth=6 mm", "not as thick", "smaller depth"}));
+  EXPECT_TRUE(says(refusal("sensor.marker_pitch=0.05 mm"),
+                   {"sensor.marker_pitch = 0.05 mm", "at most 10000 markers"}));
+  EXPECT_TRUE(says(config_refusal([] {
+                     load_config({{}, {"sensor.markers=no_such.csv"}, {}});
+                   }),
+                   {"sensor.markers", "no_such.csv"}));
 }
 
 }  // namespace
