@@ -19,46 +19,48 @@ double distance(const Vector3& at, const Vector3& lowest) {
   return (local - local.cwiseMax(0.0).cwiseMin(1.0)).norm();
 }
 
-/// The cell that holds the point at grid coordinates `at`, or the nearest of those around it.
-std::uint32_t nearest_cell(const GridCells& cells, const Vector3& at) {
-  const int i = int(std::floor(at.x())), j = int(std::floor(at.y())), k = int(std::floor(at.z()));
-  std::uint32_t nearest = cells.cell_at(i, j, k);
-  if (nearest != GridCells::none) return nearest;
+}  // namespace
+
+std::optional<PlaceInCell> place_in_cell(
+    const Vector3& at, const std::function<bool(const std::array<int, 3>&)>& is_there) {
+  const std::array<int, 3> own{int(std::floor(at.x())), int(std::floor(at.y())),
+                               int(std::floor(at.z()))};
+  std::optional<PlaceInCell> nearest;
   double least = std::numeric_limits<double>::infinity();
-  for (int dk = -1; dk <= 1; ++dk) {
-    for (int dj = -1; dj <= 1; ++dj) {
-      for (int di = -1; di <= 1; ++di) {
-        const std::uint32_t cell = cells.cell_at(i + di, j + dj, k + dk);
-        if (cell == GridCells::none) continue;
-        const double away = distance(at, Vector3(i + di, j + dj, k + dk));
-        if (away >= least) continue;
-        least = away;
-        nearest = cell;
-      }
-    }
+  const auto look_at = [&](const std::array<int, 3>& lowest) {
+    const double away = distance(at, Vector3(lowest[0], lowest[1], lowest[2]));
+    if (away >= least || !is_there(lowest)) return;
+    least = away;
+    nearest = PlaceInCell{lowest};
+  };
+  look_at(own);
+  for (int dk = -1; dk <= 1; ++dk)
+    for (int dj = -1; dj <= 1; ++dj)
+      for (int di = -1; di <= 1; ++di) look_at({own[0] + di, own[1] + dj, own[2] + dk});
+  if (!nearest) return nearest;
+  const Vector3 local = at - Vector3(nearest->lowest[0], nearest->lowest[1], nearest->lowest[2]);
+  for (int c = 0; c < 8; ++c) {
+    double& weight = nearest->weights[std::size_t(c)];
+    weight = 1.0;
+    for (int d = 0; d < 3; ++d) weight *= (c >> d & 1) != 0 ? local[d] : 1.0 - local[d];
   }
   return nearest;
 }
 
-}  // namespace
-
 EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, double stiffness) {
-  const Vector3 at = cells.grid().coordinates(point.position);
-  const std::uint32_t nearest = nearest_cell(cells, at);
-  if (nearest == GridCells::none) {
+  const auto place =
+      place_in_cell(cells.grid().coordinates(point.position), [&](const std::array<int, 3>& cell) {
+        return cells.cell_at(cell[0], cell[1], cell[2]) != GridCells::none;
+      });
+  if (!place) {
     throw meshes::InvalidInput({"lattice.spacing", meshes::to_text(cells.grid().spacing) + " m",
                                 "every point of the tip's surface needs a cell near it",
                                 "choose a finer lattice"});
   }
-  const meshes::CutCell& cell = cells.cells()[nearest];
-  const Vector3 local = at - Vector3(cell.index[0], cell.index[1], cell.index[2]);
+  const auto& [lowest, weights] = *place;
   EmbeddedPoint embedded;
-  embedded.corners = cells.corners(cell);
-  for (int c = 0; c < 8; ++c) {
-    double& weight = embedded.weights[std::size_t(c)];
-    weight = 1.0;
-    for (int d = 0; d < 3; ++d) weight *= (c >> d & 1) != 0 ? local[d] : 1.0 - local[d];
-  }
+  embedded.corners = cells.corners(cells.cells()[cells.cell_at(lowest[0], lowest[1], lowest[2])]);
+  embedded.weights = weights;
   embedded.rest = point.position;
   embedded.normal = point.normal;
   embedded.area = point.area;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "lattice/model/grid_cells.h"
 #include "meshes/cells/surface_points.h"
@@ -21,10 +23,20 @@ struct EmbeddedPoint {
   double stiffness = 0.0;                            ///< of its tie to rod or plane [N/m]
 };
 
+/// A place in a cell of a grid, by trilinear weights of its corners (CornerMoments).
+struct PlaceInCell {
+  std::array<int, 3> lowest{};  ///< corner of the cell
+  std::array<double, 8> weights{};
+};
+/// A place at grid coordinates `at` in the cell that holds it, or where that is none of those there
+/// in the nearest of the 26 around it that is: the weights then extrapolate, and none exceeds 8 in
+/// magnitude. Nothing where none is there either.
+std::optional<PlaceInCell> place_in_cell(
+    const meshes::Vector3& at, const std::function<bool(const std::array<int, 3>&)>& is_there);
+
 /// The surface point embedded in the eight corners of its cell by trilinear weights, its stiffness
-/// `stiffness` [Pa/m] times its area. A point whose cell was left out is embedded in the nearest of
-/// the 26 cells around that: the weights then extrapolate, and none exceeds 8 in magnitude. Throws
-/// InvalidInput when none of them exists either.
+/// `stiffness` [Pa/m] times its area. A cell that was left out is none of those there
+/// (place_in_cell). Throws InvalidInput when there is none.
 EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, double stiffness);
 
 /// `particle` itself as an embedded point.

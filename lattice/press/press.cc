@@ -133,7 +133,7 @@ Press::Press(const PressSetup& setup, const PressObserver& observer, const Press
       way_(setup.protocol, setup.geometry),
       finger_(computed_finger(setup, way_)),
       motion_(setup.protocol),
-      recorder_(setup.protocol, motion_, finger_.finger().plane(), finger_.finger(), outcome_),
+      recorder_(setup, motion_, finger_.finger().plane(), finger_.finger(), outcome_),
       pictures_(setup, model().sector.count(), rest_places(model()),
                 model().sector.count() == 1 ? &model() : nullptr, Moment::before_contact, outcome_),
       film_(film) {

@@ -387,6 +387,16 @@ meshes::RelativeErrors ForceEstimator::errors(const meshes::PressSample& sample,
   return errors;
 }
 
+double ForceEstimator::displacement_error(const meshes::PressSample& sample) const {
+  const auto estimate = of(sample);
+  if (!estimate) return meshes::unknown;
+  const meshes::RelativeErrors relative = errors(sample, *estimate);
+  const auto moved = [](double value) { return std::isnan(value) ? 0.0 : std::abs(value); };
+  return relative.normal * sample.indentation +
+         relative.aside * moved(sample.lateral_displacement) +
+         relative.spin * moved(sample.twist) * sample.contact_radius;
+}
+
 double ForceEstimator::spacing_for(double depth, double tolerance) const {
   double fine = 0.0, coarse = terms_->setup.geometry.tip_radius;
   for (int n = 0; n < 40; ++n) {

@@ -13,6 +13,7 @@
 #include "lattice/press/press_setup.h"
 #include "lattice/press/trace.h"
 #include "meshes/press/contact_field.h"
+#include "meshes/press/markers.h"
 #include "meshes/press/press_response.h"
 
 namespace fingertip::lattice::inline press {
@@ -40,6 +41,7 @@ struct PressOutcome : PressShapes {
                                    ///< then at the times of PressMotion::samples
   std::vector<meshes::ContactPoint> contact;  ///< at the samples asked for; none of a published
                                               ///< finger
+  std::vector<meshes::MarkerRow> markers;     ///< at the same samples; errors are left to others
   std::vector<TraceRow> trace;
   std::vector<ElapsedTime> elapsed;  ///< one per row of `trace`
   StepReport step;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lattice/press/whole_tip.h"
 #include "meshes/press/contact_patch.h"
 
 namespace fingertip::lattice::inline press {
@@ -15,15 +16,17 @@ constexpr int even_depths = 60;
 
 }  // namespace
 
-PressRecorder::PressRecorder(const meshes::PressProtocol& protocol,
-                             const meshes::PressMotion& motion, const Plane& plane,
-                             const Finger& finger, PressOutcome& outcome)
+PressRecorder::PressRecorder(const PressSetup& setup, const meshes::PressMotion& motion,
+                             const Plane& plane, const Finger& finger, PressOutcome& outcome)
     : normal_(plane.normal),
-      lateral_(protocol.lateral != 0.0),
-      prescribed_(protocol.mode == meshes::DriveMode::quasi_static),
-      program_(!protocol.program.empty()),
+      lateral_(setup.protocol.lateral != 0.0),
+      prescribed_(setup.protocol.mode == meshes::DriveMode::quasi_static),
+      program_(!setup.protocol.program.empty()),
       finger_(&finger),
+      marked_(setup.protocol.markers),
+      markers_(setup, finger.model().sector.count(), rest_places(finger.model())),
       outcome_(&outcome) {
+  const meshes::PressProtocol& protocol = setup.protocol;
   const double end = motion.stages().front().to;
   auto samples = depths_on_the_way(protocol, 0.0, end);
   if (program_) samples.pop_back();
@@ -127,10 +130,33 @@ void PressRecorder::add_work(const PressInstant& end) {
   outcome_->work_in += std::max(work, 0.0);
 }
 
-/// For the last row, at an indentation of the last step [m].
-void PressRecorder::note_contact(double indentation) {
+/// For the last row; the contact's field is that of the last step, at an indentation [m].
+void PressRecorder::note_fields(double indentation) {
   if (!field().empty()) outcome_->response.back().spin_torque = spin_torque(field());
   add_sample(field(), int(outcome_->response.samples().size()), indentation, outcome_->contact);
+  note_markers();
+}
+
+/// For the last row, at its time: velocities lead back to it from the end of the step.
+void PressRecorder::note_markers() {
+  if (markers_.empty()) return;
+  const LatticeModel& model = finger_->model();
+  const State& state = finger_->state();
+  const RodState& rod = finger_->rod();
+  const PressSample& sample = outcome_->response.back();
+  const double ahead = sample.time - finger_->time();
+  std::vector<Vector3> displacements = markers_.displacements([&](std::uint32_t particle) {
+    const std::uint32_t point = model.particles[particle];
+    return Vector3(model.grid.axes *
+                   (state.displacement.at(point) + ahead * state.velocity.at(point)));
+  });
+  for (std::size_t i = 0; i < marked_.size(); ++i) {
+    const Vector3 carried = rod.pose() * marked_[i];
+    displacements[i] = rod.pose().orientation.inverse() *
+                       (marked_[i] + displacements[i] - carried - ahead * rod.velocity_at(carried));
+  }
+  add_sample(meshes::marker_rows(marked_, displacements), int(outcome_->response.samples().size()),
+             sample.indentation, outcome_->markers);
 }
 
 /// Of the finger after its last step.
@@ -152,13 +178,13 @@ bool PressRecorder::add_step(const PressInstant& start) {
     PressSample sample = sample_between(start, (depths_[next_] - previous_.indentation) / way, 0);
     sample.indentation = depths_[next_];
     outcome_->response.append(sample);
-    if (is_sample_[next_] != 0) note_contact(start.indentation);
+    if (is_sample_[next_] != 0) note_fields(start.indentation);
     passed_sample = passed_sample || is_sample_[next_] != 0;
     ++next_;
   }
   for (; next_later_ < later_.size() && start.time >= later_[next_later_].time; ++next_later_) {
     outcome_->response.append(sample_at(start, later_[next_later_]));
-    note_contact(start.indentation);
+    note_fields(start.indentation);
     passed_sample = true;
   }
   add_work(start);

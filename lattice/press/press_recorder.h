@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lattice/dynamics/finger.h"
+#include "lattice/press/marker_points.h"
 #include "lattice/press/press_outcome.h"
 #include "meshes/press/press_motion.h"
 #include "meshes/press/press_protocol.h"
@@ -27,8 +28,8 @@ struct PressInstant {
 /// first stage; what follows is taken at the times of PressMotion::samples.
 class PressRecorder {
  public:
-  PressRecorder(const meshes::PressProtocol& protocol, const meshes::PressMotion& motion,
-                const Plane& plane, const Finger& finger, PressOutcome& outcome);
+  PressRecorder(const PressSetup& setup, const meshes::PressMotion& motion, const Plane& plane,
+                const Finger& finger, PressOutcome& outcome);
 
   /// To be called after every step with the finger as it was at the step's start. Returns whether
   /// one of the samples asked for was passed.
@@ -46,7 +47,8 @@ class PressRecorder {
 
  private:
   meshes::PressSample sample_between(const PressInstant& end, double fraction, std::size_t stage);
-  void note_contact(double indentation);
+  void note_fields(double indentation);
+  void note_markers();
   const std::vector<meshes::ContactPoint>& field();
   meshes::PressSample sample_at(const PressInstant& end, const meshes::MotionSample& wanted);
   void move(meshes::PressSample& sample,
@@ -59,6 +61,8 @@ class PressRecorder {
   bool prescribed_;  ///< whether the rod is where it is told to be
   bool program_;
   const Finger* finger_;
+  std::vector<meshes::Vector3> marked_;  ///< places of the markers [m]
+  const MarkerPoints markers_;
   PressOutcome* outcome_;
   std::vector<double> depths_;           ///< of the first loading, increasing [m]
   std::vector<std::uint8_t> is_sample_;  ///< whether the protocol asked for the depth

@@ -11,6 +11,7 @@
 
 #include "lattice/contact/contact_smoothing.h"
 #include "lattice/model/model.h"
+#include "lattice/press/marker_points.h"
 #include "lattice/press/press_pictures.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/elastic_system.h"
@@ -89,6 +90,7 @@ class StaticPress {
   FingerPicture drawn();
   void note_slopes();
   void note_contact();
+  void note_markers();
   void report();
 
   const PressSetup& setup_;
@@ -105,6 +107,7 @@ class StaticPress {
   double largest_step_ = 0.0, step_ = 0.0;
   StaticOutcome outcome_;
   std::optional<PressPictures> pictures_;
+  const MarkerPoints markers_;
   PressSlopes slopes_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
@@ -121,7 +124,8 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
                          {setup.protocol.contact, setup.protocol.friction}),
            VectorXd::Zero(body.unknowns()),
            {}},
-      previous_displacement_(now_.displacement) {
+      previous_displacement_(now_.displacement),
+      markers_(setup, body.sectors, body.rest) {
   const bool direct = !body.finite && setup.protocol.contact == ContactMode::frictionless;
   const double share = now_.contact.rubs() ? largest_share_of_slip : largest_share;
   largest_step_ = direct ? path_.length() : share * setup.geometry.thickness();
@@ -159,6 +163,7 @@ StaticOutcome StaticPress::run() {
     outcome_.response.back().stage = path_.stage(i);
     if (slope_system_) note_slopes();
     note_contact();
+    note_markers();
     report();
   }
   if (pictures_) pictures_->finish(drawn());
@@ -317,6 +322,17 @@ void StaticPress::note_contact() {
   sample.spin_torque = spin_torque(field);
   add_sample(field, int(outcome_.response.samples().size()), now_.contact.pose().indentation,
              outcome_.contact);
+}
+
+/// The rod stands still.
+void StaticPress::note_markers() {
+  if (markers_.empty()) return;
+  const auto moved = [this](std::uint32_t particle) -> Vector3 {
+    return now_.displacement.segment<3>(3 * Eigen::Index(particle));
+  };
+  add_sample(meshes::marker_rows(setup_.protocol.markers, markers_.displacements(moved)),
+             int(outcome_.response.samples().size()), now_.contact.pose().indentation,
+             outcome_.markers);
 }
 
 void StaticPress::report() {

@@ -9,6 +9,7 @@
 #include "lattice/press/press_slopes.h"
 #include "lattice/statics/lattice_body.h"
 #include "meshes/press/contact_field.h"
+#include "meshes/press/markers.h"
 #include "meshes/press/press_response.h"
 
 namespace fingertip::lattice::inline press {
@@ -27,6 +28,7 @@ struct StaticOutcome : PressShapes {  // empty unless it was to be pictured
   double smallest_jacobian = 1.0;             ///< over all cells and steps
   double wall_time = 0.0;                     ///< [s]
   std::vector<meshes::ContactPoint> contact;  ///< of every sample finished
+  std::vector<meshes::MarkerRow> markers;     ///< the same; errors are left to others
 };
 
 /// The lattice of `setup` as lists: the published model on its own particles (sectors = 1), the
