@@ -17,6 +17,7 @@
 #include "fem_reference/motion/generalised_alpha.h"
 #include "fem_reference/output/press_fields.h"
 #include "fem_reference/press/contact_edge.h"
+#include "fem_reference/press/marker_field.h"
 #include "fem_reference/solvers/solver_choice.h"
 #include "fem_reference/tip/tip_body.h"
 #include "meshes/base/errors.h"
@@ -60,6 +61,7 @@ class TipInMotion final : public TransientPress {
         solver_kind_(choose_solver(job, double(body_->unknowns()))),
         motion_(*body_, stiffness_, mass_, job.rubber.retardation_time,
                 solver_kind_ == LinearSolver::multigrid, LinearMemory<dim>(*body_, job)),
+        markers_(*body_, job),
         rubber_mass_(job.rubber.density * volume(*body_)) {
     ContactUnknowns candidates =
         contact_unknowns(within_reach(outer_nodes(*body_), job_.protocol, touch(),
@@ -145,6 +147,7 @@ class TipInMotion final : public TransientPress {
                                 : std::sqrt(nodes[i].area);
     }
     measure_contact(state, pushed);
+    state.markers = markers_.rows(motion_.displacement());
     return state;
   }
 
@@ -211,6 +214,7 @@ class TipInMotion final : public TransientPress {
   MassKernel<dim> mass_;
   LinearSolver solver_kind_;
   GeneralisedAlpha<dim> motion_;
+  MarkerField<dim> markers_;
   double rubber_mass_;  ///< of what is meshed [kg]
   std::unique_ptr<PlaneContact> contact_;
   std::unique_ptr<FieldSolver> solver_;

@@ -82,6 +82,7 @@ PressState TipPress<dim>::evaluate() {
   }
   add_resultant(state);
   note_indicators(state);
+  state.markers = markers_->rows(displacement_);
   return state;
 }
 

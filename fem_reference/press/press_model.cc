@@ -75,6 +75,7 @@ template <int dim>
 void TipPress<dim>::prepare() {
   solver_kind_ = choose_solver(job_, double(body_->unknowns()));
   outer_nodes_ = outer_nodes(*body_);
+  markers_.emplace(*body_, job_);
   const double bulge = job_.strain == Strain::finite ? finite_bulge : linear_bulge;
   const bool curved = job_.strain == Strain::finite && !job_.protocol.obstacle.is_plane();
   ContactUnknowns candidates = contact_unknowns(

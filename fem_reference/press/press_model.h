@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fem_reference/contact/plane_contact.h"
 #include "fem_reference/elements/memory.h"
 #include "fem_reference/output/press_fields.h"
 #include "fem_reference/press/known_way.h"
+#include "fem_reference/press/marker_field.h"
 #include "fem_reference/press/press.h"
 #include "fem_reference/solvers/field_solver.h"
 #include "fem_reference/tip/tip_body.h"
@@ -98,6 +100,7 @@ class TipPress final : public ContinuumPress {
   std::unique_ptr<FieldSolver> solver_;
   std::unique_ptr<PlaneContact> contact_;
   std::vector<SurfaceNode> outer_nodes_;
+  std::optional<MarkerField<dim>> markers_;
   LinearSolver solver_kind_ = LinearSolver::automatic;
   Vector displacement_;              ///< of the last converged step
   LinearMemory<dim> linear_memory_;  ///< of that step, at small strain

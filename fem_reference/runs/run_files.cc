@@ -19,6 +19,10 @@ void write_samples(const std::vector<PressState>& states, const std::filesystem:
   for (std::size_t i = 0; i < states.size(); ++i)
     meshes::add_sample(states[i].contact, int(i + 1), states[i].indentation, points);
   meshes::write_rows(points, folder / "contact_field.csv");
+  std::vector<meshes::MarkerRow> markers;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    meshes::add_sample(states[i].markers, int(i + 1), states[i].indentation, markers);
+  if (!markers.empty()) meshes::write_rows(markers, folder / "markers.csv");
 }
 
 void write_convergence(const MeshHistory& history, const std::filesystem::path& folder) {

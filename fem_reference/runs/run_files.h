@@ -10,7 +10,7 @@
 
 namespace fingertip::fem_reference::inline runs {
 
-/// response.csv and contact_field.csv of the best samples.
+/// response.csv, contact_field.csv and, of a job with markers, markers.csv of the best samples.
 void write_samples(const std::vector<PressState>& states, const std::filesystem::path& folder);
 
 /// convergence.csv: one row per mesh and sample.

@@ -3,11 +3,16 @@
 /// where no published number exists: other Poisson's ratios, sticking contact, another geometry.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "fem_reference/press/mesh_history.h"
 #include "fem_reference/press/press.h"
 #include "lattice/press/press.h"
+#include "lattice/press/press_deviation.h"
 #include "lattice/press/static_press.h"
+#include "meshes/press/markers.h"
 #include "tests/fem_reference/press/pressing.h"
 #include "tests/fingers.h"
 
@@ -172,6 +177,47 @@ TEST(LatticeAgainstContinuum, CentralSpringsAloneMissAsCauchysRelationPredicts) 
       press_continuum(continuum_job({}, rubber, ContactMode::frictionless, depth));
   const auto lattice = lattice::run_press(setup).response;
   EXPECT_LT(meshes::relative_force_error(lattice, continuum, depth), -0.06);
+}
+
+/// Displacements of the same points, on the surface, in the wall and beside the bond: both models
+/// tell how far they are off.
+TEST(LatticeAgainstContinuum, MovesMarkersWithinTheErrorsTold) {
+  const meshes::Rubber rubber = rubber_with(0.45);
+  for (const ContactMode contact : {ContactMode::frictionless, ContactMode::stick}) {
+    ReferenceJob job = continuum_job({}, rubber, contact, 1.5e-3);
+    job.press_to({0.5e-3, 1e-3, 1.5e-3});
+    for (const double below : {0.0, 0.5e-3, 2e-3, 4e-3})
+      for (const meshes::Vector3& marker : marker_grid(*meshes::shape_of({}), 1.7e-3, below))
+        job.protocol.markers.push_back(marker);
+    Pressing pressing(job);
+    fem_reference::MeshHistory history(1.2);
+    for (int mesh = 0; mesh < 4; ++mesh) {
+      if (mesh > 0 && !pressing.press.refine(0.5)) break;
+      history.start_mesh(pressing.press.mesh());
+      for (const double depth : job.protocol.samples) history.add(pressing.press.advance(depth));
+    }
+    lattice::PressSetup setup = lattice_press({}, rubber, contact, 1.5e-3, 10.0);
+    setup.protocol = job.protocol;
+    setup.protocol.mode = meshes::DriveMode::equilibrium;
+    const lattice::ForceEstimator estimator(setup);
+    const auto pressed = lattice::run_static_press(setup);
+    auto found = pressed.markers.begin();
+    std::size_t within = 0;
+    std::vector<double> idle;
+    for (const fem_reference::PressState& state : history.best())
+      for (const meshes::MarkerRow& expected : state.markers) {
+        const auto& sample = pressed.response.samples()[std::size_t(found->sample - 1)];
+        const double off = (found->displacement - expected.displacement).norm(),
+                     told = estimator.displacement_error(sample);
+        if (off <= told + expected.error) ++within;
+        idle.push_back(told / off);
+        ++found;
+      }
+    ASSERT_EQ(found, pressed.markers.end());
+    EXPECT_GE(double(within), 0.95 * double(idle.size()));
+    std::ranges::nth_element(idle, idle.begin() + std::ptrdiff_t(idle.size() / 2));
+    EXPECT_LT(idle[idle.size() / 2], 12.0);
+  }
 }
 
 /// Pressed and then moved laterally, stuck: the tip's stiffness in shear under a load.

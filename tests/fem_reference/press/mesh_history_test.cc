@@ -107,6 +107,40 @@ TEST(MeshHistory, OneMeshTellsNoError) {
   EXPECT_TRUE(std::isnan(history.worst_relative_error()));
 }
 
+/// Length over the components, and no less than what a mesh stores in excess, of the way.
+TEST(MeshHistory, MarkersHaveErrorsOfTheirOwn) {
+  const auto history_of = [](double indicator, double aside) {
+    MeshHistory history(1.2);
+    for (const auto& [spacing, moved] :
+         {std::pair(coarse, 1.10e-3), std::pair(medium, 1.02e-3), std::pair(fine, 1.01e-3)}) {
+      history.start_mesh(mesh(1000));
+      PressState next = state(2e-3, 1.0, spacing);
+      next.indicator = indicator * next.energy;
+      next.lateral_displacement = aside;
+      next.markers = meshes::marker_rows(
+          {{1e-3, 2e-3, 9e-3}, {0.0, 0.0, 8e-3}},
+          {moved * meshes::Vector3(0.6, 0.0, -0.8), meshes::Vector3(0.0, 0.0, -1e-3)});
+      history.add(next);
+    }
+    return history;
+  };
+  const double differences =
+      1.25 * std::max(0.01e-3 / decay(medium, fine), 0.09e-3 / decay(coarse, fine));
+  const MeshHistory exact = history_of(0.0, meshes::unknown);
+  ASSERT_EQ(exact.marker_errors(0).size(), 2u);
+  EXPECT_NEAR(exact.marker_errors(0)[0], 1.2 * differences, 1e-12);
+  EXPECT_EQ(exact.marker_errors(0)[1], 0.0);
+  const auto floors = history_of(0.05, 1.5e-3).best()[0].markers;  // a way of 2.5 mm
+  EXPECT_NEAR(floors[0].error, 1.2 * 2.0 * 0.05 * 2.5e-3, 1e-12);
+  EXPECT_NEAR(floors[1].error, floors[0].error, 1e-15);
+  const MeshHistory read = MeshHistory::from_json(exact.to_json(), MeshHistory(1.2));
+  EXPECT_EQ(read.best()[0].markers[0].error, exact.best()[0].markers[0].error);
+  MeshHistory one;
+  one.start_mesh(mesh(1000));
+  one.add(exact.meshes()[0].states[0]);
+  EXPECT_TRUE(std::isnan(one.marker_errors(0)[0]));
+}
+
 /// A mesh that was refined elsewhere has the better force, but tells nothing about the error.
 TEST(MeshHistory, MeshesThatAreNoFinerAtTheEdgeCountAsOne) {
   MeshHistory history = three_meshes();

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <vector>
 
+#include "meshes/press/markers.h"
+#include "meshes/tables/table_rows.h"
 #include "tests/fem_reference/runs/fem_program.h"
 #include "tests/fem_reference/runs/run_results.h"
 
@@ -122,7 +124,9 @@ TEST(ReferenceRun, PressesAFlatPad) {
 
 TEST(ReferenceRun, LeavesACompleteFolder) {
   const TemporaryFolder parent;
-  const fs::path folder = run_folder(parent, "run", small_job());
+  ReferenceJob job = small_job();
+  job.protocol.markers = {{0.0, -3e-3, 8e-3}, {0.0, 0.0, 10e-3}};
+  const fs::path folder = run_folder(parent, "run", job);
   FemProgram program(folder, {folder.string()});
   ASSERT_EQ(program.wait(), 0);
   EXPECT_EQ(program.errors(), "");
@@ -155,6 +159,18 @@ TEST(ReferenceRun, LeavesACompleteFolder) {
   EXPECT_GT(count_lines(folder / "contact_field.csv"), 10u);
   EXPECT_EQ(count_lines(folder / "convergence.csv"), 1u + 3 * 2);
   EXPECT_FALSE(fs::exists(folder / "checkpoint"));
+  const auto markers = meshes::read_rows<meshes::MarkerRow>(folder / "markers.csv");
+  ASSERT_EQ(markers.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(markers[i].sample, int(i / 2 + 1));
+    EXPECT_EQ(markers[i].marker, int(i % 2 + 1));
+    EXPECT_EQ(markers[i].indentation, samples[i / 2].indentation);
+    EXPECT_GT(markers[i].error, 0.0);
+    EXPECT_LT(markers[i].error, 0.2 * markers[i].indentation);
+  }
+  // The rubber is pushed aside by the plane with which the pole goes.
+  EXPECT_LT(markers[2].displacement.y(), 0.0);
+  EXPECT_NEAR(markers[3].displacement.z(), -1e-3, 1e-6);
 
   std::istringstream progress(program.output());
   std::vector<json> lines;
