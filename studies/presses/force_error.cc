@@ -174,4 +174,12 @@ PressResponse with_estimated_error(const PressResponse& response,
   return with_pressure_error(PressResponse(std::move(samples)), estimator);
 }
 
+std::vector<meshes::MarkerRow> with_estimated_error(std::vector<meshes::MarkerRow> markers,
+                                                    const PressResponse& response,
+                                                    const lattice::ForceEstimator& estimator) {
+  for (meshes::MarkerRow& row : markers)
+    row.error = estimator.displacement_error(response.samples().at(std::size_t(row.sample - 1)));
+  return markers;
+}
+
 }  // namespace fingertip::studies::inline presses

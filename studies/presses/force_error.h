@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fem_reference/job/job.h"
 #include "lattice/press/press_deviation.h"
+#include "meshes/press/markers.h"
 #include "meshes/press/press_response.h"
 #include "studies/config/loaded_config.h"
 #include "studies/files/press_summary.h"
@@ -53,5 +55,11 @@ meshes::PressResponse with_pressure_error(const meshes::PressResponse& response,
 /// unknown where there is none.
 meshes::PressResponse with_estimated_error(const meshes::PressResponse& response,
                                            const lattice::ForceEstimator& estimator);
+
+/// Rows of markers.csv beside `response` with the estimate as their error; unknown where there is
+/// none.
+std::vector<meshes::MarkerRow> with_estimated_error(std::vector<meshes::MarkerRow> markers,
+                                                    const meshes::PressResponse& response,
+                                                    const lattice::ForceEstimator& estimator);
 
 }  // namespace fingertip::studies::inline presses

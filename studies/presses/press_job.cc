@@ -115,6 +115,10 @@ class PressWriter {
     if (contact_points_ != outcome.contact.size())
       meshes::write_rows(outcome.contact, folder_ / "contact_field.csv");
     contact_points_ = outcome.contact.size();
+    if (markers_ != outcome.markers.size())
+      meshes::write_rows(with_estimated_error(outcome.markers, outcome.response, estimator_),
+                         folder_ / "markers.csv");
+    markers_ = outcome.markers.size();
     if constexpr (requires { outcome.trace; })
       meshes::write_rows(outcome.trace, folder_ / "trace.csv");
     meshes::write_json_file(summary_of(*setup_, outcome, status), folder_ / "summary.json");
@@ -124,7 +128,7 @@ class PressWriter {
   const lattice::PressSetup* setup_;
   lattice::ForceEstimator estimator_;
   fs::path folder_;
-  std::size_t contact_points_ = 0;
+  std::size_t contact_points_ = 0, markers_ = 0;  ///< rows written
 };
 
 void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path& folder,

@@ -271,6 +271,7 @@ fem_reference::ReferenceJob continuum_at_rest(const LoadedConfig& loaded,
   reference.analysis = fem_reference::Analysis::static_press;
   reference.strain = strain;
   reference.write_fields = false;
+  own.config.press.protocol.markers.clear();  // its forces are what is asked for
   return continuum_setup(own);
 }
 

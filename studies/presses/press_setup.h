@@ -40,8 +40,8 @@ lattice::PressSetup free_press(ConfigSource source);
 /// The continuum's job. Throws ConfigError.
 fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded);
 
-/// Its press at rest, whatever reference.mode says, at this strain, without fields. Throws
-/// ConfigError.
+/// Its press at rest, whatever reference.mode says, at this strain, without fields and markers.
+/// Throws ConfigError.
 fem_reference::ReferenceJob continuum_at_rest(const LoadedConfig& loaded,
                                               fem_reference::Strain strain);
 fem_reference::Strain strain_of(lattice::Kinematics kinematics);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lattice/model/plane.h"
+#include "meshes/press/markers.h"
 #include "meshes/press/press_response.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/files/shown_units.h"
@@ -71,6 +73,22 @@ std::string taxel_words(const std::vector<TaxelRow>& rows) {
                      shown_units().length.text(most.indentation),
                      shown_units().stress.text(most.normal_stress), most.taxel,
                      shown_units().force.text(felt_force(last)));
+}
+
+std::string marker_words(const fs::path& folder) {
+  if (!fs::exists(folder / "markers.csv")) return "";
+  const auto rows = meshes::read_rows<meshes::MarkerRow>(folder / "markers.csv");
+  if (rows.empty()) return "";
+  const auto last = meshes::samples_of(rows).back();
+  const auto moved = [](const meshes::MarkerRow& row) { return row.displacement.norm(); };
+  const auto& length = shown_units().length;
+  const meshes::MarkerRow& most = *std::ranges::max_element(last, {}, moved);
+  std::string words =
+      fmt::format("{} markers at {}: {} at most (marker {})", last.size(),
+                  length.text(most.indentation), length.text(moved(most)), most.marker);
+  const double error = std::ranges::max_element(last, {}, &meshes::MarkerRow::error)->error;
+  if (std::isfinite(error)) words += fmt::format(", off by up to {}", length.text(error));
+  return words;
 }
 
 std::string footprint_note(const std::vector<TaxelRow>& rows, double footprint) {

@@ -1,4 +1,4 @@
-/// What a skin felt of a press: taxels.csv.
+/// What a skin felt of a press, taxels.csv, and where markers went, markers.csv.
 #pragma once
 
 #include <filesystem>
@@ -27,6 +27,10 @@ std::vector<meshes::TaxelRow> write_contact_files(const std::filesystem::path& f
 /// "32 taxels at 3 mm: 512 Pa at most (taxel 5), together 17.9 mN", of the last sample; empty of no
 /// row.
 std::string taxel_words(const std::vector<meshes::TaxelRow>& rows);
+
+/// "241 markers at 3 mm: 2.98 mm at most (marker 121), off by up to 0.04 mm", of the last sample of
+/// a folder's markers.csv; empty without one.
+std::string marker_words(const std::filesystem::path& folder);
 
 /// Of a footprint [m] finer than what the field resolves; empty where none is.
 std::string footprint_note(const std::vector<meshes::TaxelRow>& rows, double footprint);

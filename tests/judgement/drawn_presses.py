@@ -2,7 +2,7 @@
 """Draws lattice presses by a seed and judges the errors that they tell of their forces.
 
     tests/judgement/drawn_presses.py [--seed 2] [--presses 300] [--only CLASS ...]
-                                     [--auto | --edges | --aside | --turned | --fields | --continuum]
+                                     [--auto | --edges | --aside | --turned | --fields | --markers | --continuum]
                                      [--rows FILE] [--program fingertip]
 
 Each press is run twice: with `run.error = estimate`, which is judged, and with the continuum, which
@@ -26,6 +26,9 @@ or 0.5 %, by a continuum to a tenth of it (a solid's to a third).
 
 With --fields it is the error of the pressures, point by point, that is judged, in those of the
 presses whose truth is a meridian's.
+
+With --markers it is the error of displacements that is judged, of a grid of markers in those of the
+presses whose truth is a meridian's, some on the surface and some below it.
 
 With --continuum it is the continuum that is pressed, to 4, 2, 1 and on a meridian 0.1 %, and its own
 error that is judged, by a continuum to a tenth of what that tells at best (a solid's to a third).
@@ -409,6 +412,35 @@ def measure_fields(bench, number, drawn):
     return pressures
 
 
+def measure_markers(bench, number, drawn):
+    """As measure(), of the displacements of markers, over the indentation."""
+    classes, sets, about = drawn
+    if not about["flat"] or "solid" in classes:
+        return []
+    below = (0.0, 0.2, 0.5, 0.8)[number % 4] * 1e3 * about["wall"]
+    grid = ["sensor.markers=grid", 'sensor.marker_pitch="1.9 mm"',
+            f'sensor.marker_depth="{below:.4f} mm"']
+    found = measure(bench, number, (classes, [*sets, *grid], about))
+    if found and isinstance(found[0], str):
+        return found
+    out, rows = bench.folder / f"press{number}", []
+    samples = {round(1e9 * sample["depth"]): sample for sample in found}
+    true = {(round(1e9 * float(row["indentation [m]"])), row["marker"]): row
+            for row in rows_of(out / "truth/markers.csv")}
+    axes = [f"displacement_{axis} [m]" for axis in "xyz"]
+    for row in rows_of(out / "markers.csv"):
+        place = round(1e9 * float(row["indentation [m]"])), row["marker"]
+        sample, right = samples.get(place[0]), true.get(place)
+        if not sample or not right:
+            continue
+        own, wanted = ([float(table[axis]) for axis in axes] for table in (row, right))
+        errors = [float(table.get("error [m]") or "nan") for table in (row, right)]
+        rows.append(sample | {"error": math.dist(own, wanted) / sample["depth"],
+                              "bar": errors[0] / sample["depth"],
+                              "slack": errors[1] / sample["depth"]})
+    return rows
+
+
 def aside(row, true, sample, column, name, axes, unit):
     """Of a vector that symmetry leaves: its error and bar, over the force."""
     bar = float(row.get(f"{column}_error [{unit}]") or "nan")
@@ -444,6 +476,7 @@ def main():
     mode.add_argument("--edges", action="store_true")
     mode.add_argument("--aside", action="store_true")
     mode.add_argument("--fields", action="store_true")
+    mode.add_argument("--markers", action="store_true")
     mode.add_argument("--turned", action="store_true")
     parser.add_argument("--continuum", action="store_true")
     parser.add_argument("--rows")
@@ -451,7 +484,7 @@ def main():
     numbers = random.Random(asked.seed)
     draw_one = draw_turned if asked.turned else draw_continuum if asked.continuum else draw
     measure_one = measure_continuum if asked.continuum else \
-        measure_fields if asked.fields else measure
+        measure_fields if asked.fields else measure_markers if asked.markers else measure
     drawn = [draw_one(numbers) for _ in range(asked.presses)]
     drawn = [(i, d) for i, d in enumerate(drawn) if set(asked.only) <= set(d[0])]
     for asked_for, changed in ((asked.auto, automatic), (asked.edges, on_edge),
@@ -473,7 +506,8 @@ def main():
     if asked.auto:
         good = judge_automatic(samples, len(drawn) - refused)
     else:
-        widest = math.inf if asked.continuum else WIDEST
+        # A marker far from the contact is known better than what the force is off says.
+        widest = math.inf if asked.continuum or asked.markers else WIDEST
         vectors = ("lateral force", "torque")
         good = asked.turned or judge([s for s in samples if s["classes"][0] not in vectors], "all",
                                      widest)

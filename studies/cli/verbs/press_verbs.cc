@@ -203,9 +203,11 @@ class ToldSummary {
   nlohmann::ordered_json content_;
 };
 
-/// What a skin felt, and that its footprint is too fine.
-void print_skin(const std::vector<meshes::TaxelRow>& felt, const std::string& finer) {
+/// What a skin felt, that its footprint is too fine, and where markers went.
+void print_sensors(const std::filesystem::path& folder, const std::vector<meshes::TaxelRow>& felt,
+                   const std::string& finer) {
   if (!felt.empty()) fmt::print("{}\n", taxel_words(felt));
+  if (const std::string words = marker_words(folder); !words.empty()) fmt::print("{}\n", words);
   if (!finer.empty()) fmt::print(stderr, "fingertip: note: {}\n", finer);
 }
 
@@ -318,7 +320,7 @@ int run_press(const CommandLine& line) {
       if (error) fmt::print("{}\n", error_words(*error));
       if (const std::string beyond = error ? beyond_tolerance(loaded, *error) : ""; !beyond.empty())
         fmt::print("{}\n", beyond);
-      print_skin(felt, finer);
+      print_sensors(folder, felt, finer);
       print_press_facts(summary, result.reused);
       print_sources(loaded);
     }
@@ -379,7 +381,7 @@ int run_reference(const CommandLine& line) {
         print_response(response, reference.protocol);
         print_program(stage_entries(reference.protocol, response), meshes::unknown,
                       reference.protocol.goes_back() ? work_along(response) : meshes::unknown);
-        print_skin(felt, finer);
+        print_sensors(folder, felt, finer);
         if (reference.estimate_error) print_accuracy(folder, reference, worst);
       } else {
         print_frequencies(folder);

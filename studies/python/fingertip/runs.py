@@ -87,6 +87,11 @@ class Response(Run):
         """taxels.csv of a finger with a skin (sensor.taxels): stresses of each, `sample` by sample (from 1)."""
         return self.table("taxels") if (self.folder / "taxels.csv").exists() else None
 
+    @cached_property
+    def markers(self) -> Table | None:
+        """markers.csv of a press with markers (sensor.markers): displacement of each, `sample` by sample (from 1)."""
+        return self.table("markers") if (self.folder / "markers.csv").exists() else None
+
     @property
     def indentation(self) -> np.ndarray:
         """[m]"""

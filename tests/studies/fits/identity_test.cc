@@ -200,8 +200,9 @@ void PrintTo(const World& world, std::ostream* out) {
 /// another process, files whose content counts and not their name (controller_choice_test).
 const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawAtLargeStrain.
     // Nobody but people's own controllers asks a skin; see ChangesWithTheSkinThatItFeels.
-    "sensor.", "rubber.law", "rubber.volumetric", "rubber.gent_jm", "run.threads", "run.units",
-    "run.error",
+    "sensor.taxels", "sensor.pitch", "sensor.footprint", "sensor.depth", "sensor.noise",
+    "sensor.resolution", "sensor.rate", "sensor.latency", "rubber.law", "rubber.volumetric",
+    "rubber.gent_jm", "run.threads", "run.units", "run.error",
     // Of spacing = "auto"; see finger_defaults_test.
     "lattice.max_particles", "exchange.", "controller.address", "controller.timeout",
     "controller.connect_timeout", "controller.library", "controller.schedule",
@@ -228,6 +229,7 @@ const Sets controllers = split(
     "controller.memory controller.force controller.force_bandwidth controller.touch_force "
     "controller.release_force controller.confirmation controller.dwell");
 const Sets no_continuum = {"reference."}, no_fit = {"calibration."}, no_grasp = {"grasp."},
+           no_markers = {"sensor.markers", "sensor.marker_pitch", "sensor.marker_depth"},
            no_modes = {"lattice.modes"}, no_rod = {"rod.", "hardware."},
            no_time = {"run.",          "controller.",   "press.speed", "press.clearance",
                       "press.gravity", "press.duration"};
@@ -259,12 +261,12 @@ const World worlds[] = {
     {"lattice's modes",
      {"press.mode=static", "lattice.spacing=tip_radius/12"},
      lattice_modes,
-     nowhere + no_continuum + no_fit + no_grasp + no_rod + no_time + relaxation +
+     nowhere + no_markers + no_continuum + no_fit + no_grasp + no_rod + no_time + relaxation +
          split("press. obstacle. rubber.retardation_time")},
     {"grasp",
      {"lattice.spacing=tip_radius/12"},
      grasp,
-     nowhere + diagonal + no_continuum + no_fit + no_modes + no_rod + controllers +
+     nowhere + no_markers + diagonal + no_continuum + no_fit + no_modes + no_rod + controllers +
          // The rods are driven as the grip says; it takes symplectic Euler alone.
          split("obstacle. press.mode press.tilt press.lateral press.depth press.speed "
                "press.samples press.program press.gravity press.duration run.integrator "
@@ -287,13 +289,13 @@ const World worlds[] = {
     {"continuum's modes",
      {"reference.mode=modes"},
      continuum,
-     nowhere + no_fit + no_grasp + no_rod + no_time +
+     nowhere + no_markers + no_fit + no_grasp + no_rod + no_time +
          split("lattice. press. obstacle. rubber.retardation_time rubber.relaxation "
                "rubber.relaxation_bulk reference.field_sectors reference.law")},
     {"fit to moduli",
      {"calibration.problem=moduli", "lattice.model=central", "lattice.spacing=tip_radius/12"},
      calibration,
-     nowhere + no_continuum + no_grasp + no_modes + no_rod + no_time + follow_up +
+     nowhere + no_markers + no_continuum + no_grasp + no_modes + no_rod + no_time + follow_up +
          split("press. obstacle. geometry.rod_radius geometry.sleeve_length geometry.rod_length "
                "lattice.offset lattice.rotation lattice.constants lattice.kinematics "
                "lattice.ligament_stiffness lattice.contact_stiffness calibration.data "
@@ -305,14 +307,14 @@ const World worlds[] = {
     {"fit to the continuum's curves",
      {"calibration.problem=curve", "calibration.points=2", "lattice.spacing=tip_radius/6"},
      calibration,
-     nowhere + no_grasp + no_modes + no_rod + no_time + no_friction + diagonal + moduli_fit +
-         follow_up + beside + own_depths + relaxation +
+     nowhere + no_markers + no_grasp + no_modes + no_rod + no_time + no_friction + diagonal +
+         moduli_fit + follow_up + beside + own_depths + relaxation +
          split("calibration.data calibration.forward calibration.poisson_range")},
     {"fit of the damping",
      {"calibration.problem=damping", "calibration.points=2", "lattice.spacing=tip_radius/6"},
      calibration,
-     nowhere + no_grasp + no_modes + no_rod + diagonal + moduli_fit + follow_up + beside +
-         own_depths + controllers + relaxation +
+     nowhere + no_markers + no_grasp + no_modes + no_rod + diagonal + moduli_fit + follow_up +
+         beside + own_depths + controllers + relaxation +
          // Presses come from far enough; tau alone is free.
          split("press.clearance calibration.data calibration.forward calibration.poisson_range "
                "calibration.parameters calibration.profile")},

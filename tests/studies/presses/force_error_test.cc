@@ -161,6 +161,20 @@ TEST(ForceError, OfAnEstimateIsAPartOfTheForceWhereThereIsContact) {
       500.0 * (0.005 + estimate.profile));
 }
 
+TEST(ForceError, OfADisplacementIsAsLargeAPartOfTheWay) {
+  PressSample pressed = sample(1e-3, 2.0), slid = sample(1e-3, 2.0);
+  pressed.contact_radius = slid.contact_radius = 3e-3;
+  slid.lateral_displacement = 0.5e-3;
+  const fingertip::lattice::ForceEstimator estimator(setup_of({"press.mode=static"}));
+  std::vector<fingertip::meshes::MarkerRow> rows(3);
+  for (int i = 0; i < 3; ++i) rows[std::size_t(i)].sample = i + 1;
+  rows = with_estimated_error(rows, PressResponse({sample(0.5e-3, 1.0), pressed, slid}), estimator);
+  EXPECT_TRUE(std::isnan(rows[0].error)) << "no radius is known";
+  EXPECT_DOUBLE_EQ(rows[1].error, 1e-3 * estimator.of(pressed)->sum());
+  // Aside the edge of what sticks counts, too.
+  EXPECT_GT(rows[2].error, 1.5 * rows[1].error);
+}
+
 /// A bar above what was asked for says so, from where on that is kept, and what would keep it.
 TEST(ForceError, AboveTheToleranceSaysWhatMakesItSmaller) {
   const auto words = [](const std::vector<std::string>& sets, double largest, double depth) {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "lattice/grasp/grasp_table.h"
+#include "meshes/press/markers.h"
 #include "meshes/press/press_response.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/files/plan_file.h"
@@ -145,9 +146,9 @@ template <typename Row>
 class Table : public testing::Test {};
 using Rows =
     testing::Types<meshes::PressSample, lattice::TraceRow, BoundaryRow, BoundarySpringRow,
-                   SnapshotRow, SnapshotPointRow, LatticeModeRow, CubeRow,
-                   PublishedStudyRow, EquilibriumStudyRow, VariantRow, TransferRow,
-                   fem_reference::ConvergenceRow, meshes::ContactPoint, fem_reference::SectionRow,
+                   SnapshotRow, SnapshotPointRow, LatticeModeRow, CubeRow, PublishedStudyRow,
+                   EquilibriumStudyRow, VariantRow, TransferRow, fem_reference::ConvergenceRow,
+                   meshes::ContactPoint, meshes::MarkerRow, fem_reference::SectionRow,
                    fem_reference::TransientStep, fem_reference::ModeRow, calibration::FitDataRow,
                    calibration::SurrogateRow, lattice::GraspRow>;
 TYPED_TEST_SUITE(Table, Rows);
