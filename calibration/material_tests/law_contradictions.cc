@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <iterator>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,7 +11,6 @@
 
 #include "calibration/files/words.h"
 #include "calibration/material/relaxation_branches.h"
-#include "calibration/material_tests/law_fit.h"
 #include "calibration/material_tests/law_posterior.h"
 #include "calibration/material_tests/zeroed_model.h"
 #include "calibration/statistics/curve_checks.h"
@@ -317,8 +314,7 @@ void add_factors(LawFit& result, const std::vector<MaterialTest>& tests) {
   std::string moduli;
   for (const PartErrors& each : parts) {
     const char* link = &each == &parts.front() ? "" : &each == &parts.back() ? " and " : ", ";
-    moduli +=
-        link + rounded(result.law.shear_modulus * each.factor, 3) + " Pa in " + each.part.name;
+    moduli += link + rounded((*result.modulus)[0] * each.factor, 3) + " Pa in " + each.part.name;
   }
   const double times = times_of(*worst), rates = growth_with_rate(tests, parts);
   const bool one_way = std::ranges::all_of(
@@ -341,8 +337,8 @@ void add_factors(LawFit& result, const std::vector<MaterialTest>& tests) {
   fail(result, sentence);
 }
 
-/// Zeros that are further from where they ought to be than a laboratory makes them.
-void add_zeros(LawFit& result, const std::vector<MaterialTest>& tests) {
+/// Tests that do not go through rest, and stresses that fall.
+void add_rest(LawFit& result, const std::vector<MaterialTest>& tests) {
   constexpr double far = 3.0;
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const MaterialTest& test = tests[t];
@@ -355,26 +351,22 @@ void add_zeros(LawFit& result, const std::vector<MaterialTest>& tests) {
       fail(result, sentence);
       continue;
     }
-    const auto told = [&](const std::optional<Index>& place, bool sought, double usual) {
-      return place && !sought &&
-             std::abs(result.fit.estimates(*place)) >
-                 far * std::hypot(usual, result.fit.standard_errors(*place));
-    };
+    if (result.usual.empty()) continue;
+    const UsualZeros& zeros = result.usual[t];
     const std::string begin = test.name + " does not go through rest: the law asks for ";
     const double most = largest_stress(test);
-    if (const auto place = result.zeros[t].stress;
-        told(place, test.stress_zero_sought, usual_zero * most))
+    if (!(std::abs(zeros.at_rest) > far * std::hypot(zeros.at_rest_usual, zeros.at_rest_error)))
+      continue;
+    if (std::abs(zeros.stress) / most > std::abs(zeros.strain) / reach_of(test))
       fail(result,
-           begin + rounded(result.fit.estimates(*place), 3) + " Pa there, within " +
-               rounded(normal_95() * result.fit.standard_errors(*place), 2) + " Pa, " +
-               percent(std::abs(result.fit.estimates(*place)) / most) +
+           begin + rounded(zeros.stress, 3) + " Pa there, " +
+               percent(std::abs(zeros.stress) / most) +
                " of the largest. The load cell's zero, or a set or slack of the specimen: "
                "write zero = \"fit\" in its stress, or in its strain, or give rows at rest");
-    if (const auto place = result.zeros[t].strain;
-        told(place, test.strain_zero_sought, usual_zero * reach_of(test)))
+    else
       fail(result,
            begin + "a stress that vanishes at the deformation " +
-               rounded(rest_of(test.kind) + result.fit.estimates(*place), 4) + " and not at " +
+               rounded(rest_of(test.kind) + zeros.strain, 4) + " and not at " +
                rounded(rest_of(test.kind), 1) +
                ". An unloading of a specimen that has kept a set, slack, or a wrong zero of the "
                "strain: give the loading from rest on, or write zero = \"fit\" in its strain");
@@ -390,10 +382,14 @@ void add_misfits(LawFit& result, const std::vector<MaterialTest>& tests) {
       result.contradictions.push_back("the model misses something of " + each.part.name + ": " +
                                       size_text(each.misfit) + " (rms), noise taken off");
   }
-  if (!result.parts.empty() || (result.fit.chi_square_probability && result.fit.birge_ratio == 1.0))
+  const auto is_judged = [&](std::size_t t) {
+    return std::ranges::find(result.parts, t, &PartErrors::test) != result.parts.end();
+  };
+  if (result.parts.empty() && result.fit.chi_square_probability && result.fit.birge_ratio == 1.0)
     return;
   for (std::size_t t = 0; t < tests.size(); ++t)
     for (const TestPart& part : parts_of(tests[t])) {
+      if (is_judged(t)) continue;
       Eigen::VectorXd measured(Index(part.points.size())), residuals = measured;
       for (Index i = 0; i < measured.size(); ++i) {
         const std::size_t p = part.points[std::size_t(i)];
@@ -423,13 +419,13 @@ void add_contradictions(LawFit& result, const std::vector<MaterialTest>& tests,
   // Of a rubber that keeps its volume.
   const std::string modulus = meshes::implausible_modulus(3.0 * result.law.shear_modulus);
   if (!modulus.empty()) fail(result, modulus);
-  if (const ModulusOfLaws g = modulus_of(result); is_open("Pa", g.value, g.lower, g.upper))
-    fail(result, "G at rest is not determined by these tests: its 95 % interval is " +
-                     rounded(g.lower, 3) + " to " + rounded(g.upper, 3) + " Pa");
   add_slack(result, tests);
   add_misfits(result, tests);
   add_factors(result, tests);
-  add_zeros(result, tests);
+  add_rest(result, tests);
+  if (const ModulusOfLaws g = modulus_of(result); is_open("Pa", g.value, g.lower, g.upper))
+    fail(result, "G at rest is not determined by these tests: its 95 % interval is " +
+                     rounded(g.lower, 3) + " to " + rounded(g.upper, 3) + " Pa");
 }
 
 std::vector<UntestedMode> untested_modes(const LawFit& fit, const std::vector<MaterialTest>& tests,

@@ -104,11 +104,7 @@ double corrected_criterion(const CurveFit& fit, Index points, bool has_sigma) {
   return misfit + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
 }
 
-}  // namespace
-
-namespace {
-
-/// As `predict`, of a test that may begin beyond rest.
+/// Of a test whose zeros are taken off it may begin beyond rest.
 TestMisfit misfit_of(const LawFit& fit, const MaterialTest& test, TestWeights weights) {
   const std::vector<double> scales = scales_of(test, weights);
   TestMisfit misfit;
@@ -248,21 +244,18 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
   const auto bulk = std::ranges::find(parameters, MaterialParameter::bulk_modulus);
   if (bulk != parameters.end())
     result.bulk_modulus = result.fit.estimates(Index(bulk - parameters.begin()));
-  // A zero that nobody told is an error of the test, not how far it went.
-  std::vector<MaterialTest> taut = tests;
+  std::vector<MaterialTest> zeroed;
   const auto found = [&](const std::optional<Index>& place) {
     return place ? result.fit.estimates(*place) : 0.0;
   };
   for (std::size_t t = 0; t < tests.size(); ++t)
-    if (tests[t].strain_zero_sought)
-      taut[t] = without_zeros(tests[t], 0.0, found(result.zeros[t].strain));
-  result.tested = stretch_range(taut);
+    zeroed.push_back(
+        without_zeros(tests[t], found(result.zeros[t].stress), found(result.zeros[t].strain)));
+  result.tested = stretch_range(zeroed);
   for (std::size_t t = 0; t < tests.size(); ++t) {
-    const double stress = found(result.zeros[t].stress), strain = found(result.zeros[t].strain);
-    result.fitted.push_back(
-        misfit_of(result, without_zeros(tests[t], stress, strain), options.weights));
-    result.fitted.back().stress_zero = stress;
-    result.fitted.back().strain_zero = strain;
+    TestMisfit& test = result.fitted.emplace_back(misfit_of(result, zeroed[t], options.weights));
+    test.stress_zero = found(result.zeros[t].stress);
+    test.strain_zero = found(result.zeros[t].strain);
   }
   // The further strained side of a test comes first.
   for (auto part = result.parts.rbegin(); part != result.parts.rend(); ++part) {
@@ -270,8 +263,8 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
     test.factor = part->factor;
     test.misfit = std::fmax(test.misfit, part->misfit);
   }
-  result.untested = untested_modes(result, tests, options);
-  add_contradictions(result, tests, options);
+  result.untested = untested_modes(result, zeroed, options);
+  add_contradictions(result, zeroed, options);
   return result;
 }
 
@@ -367,25 +360,6 @@ double wildness(const LawFit& law, const Laws& laws) {
 }
 
 }  // namespace
-
-ModulusOfLaws modulus_of(const LawFit& fit) {
-  const VectorXd slopes = shear_modulus_slopes(fit.choice, fit.fit.estimates);
-  const Index own = slopes.size();
-  const double deviation =
-      std::sqrt(slopes.dot(fit.fit.covariance.topLeftCorner(own, own) * slopes));
-  // An end of an interval over a standard error, as far as that of any coefficient.
-  double below = 0.0, above = 0.0;
-  for (Index i = 0; i < own; ++i) {
-    const double error = fit.fit.standard_errors(i);
-    if (!(error > 0.0)) continue;
-    const double down = (fit.fit.estimates(i) - fit.fit.lower(i)) / error,
-                 up = (fit.fit.upper(i) - fit.fit.estimates(i)) / error;
-    below = std::max(below, slopes(i) < 0.0 ? up : down);
-    above = std::max(above, slopes(i) < 0.0 ? down : up);
-  }
-  const double g = fit.law.shear_modulus;
-  return {g, g - below * deviation, g + above * deviation, {&fit}};
-}
 
 ModulusOfLaws modulus_of_laws(const std::vector<LawFit>& ranking, const LawFit& taken) {
   const auto stable = [](const LawFit& fit) {

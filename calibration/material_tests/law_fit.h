@@ -4,11 +4,13 @@
 #include <functional>
 #include <vector>
 
+#include "calibration/material_tests/law_posterior.h"
 #include "calibration/material_tests/law_result.h"
 
 namespace fingertip::calibration::inline material_tests {
 
-/// Least squares over all tests together. Slow tests count at their rate, those without one as
+/// Least squares over all tests together, with the intervals of a posterior where all are slow
+/// (law_posterior.h). Slow tests count at their rate, those without one as
 /// after long times. Throws InvalidInput for tests that break their rules, fewer points than
 /// coefficients, some tests with sigma and some without, and where all tests are volumetric,
 /// branches where all tests are slow; NotConverged where no start has an answer.
@@ -41,16 +43,9 @@ inline constexpr double supporting_error = 0.15;
 /// no law passed its tests, the first that is stable, else the first.
 const LawFit* recommended(const std::vector<LawFit>& ranking);
 
-/// The shear modulus at rest, after long times [Pa], with its 95 % interval.
-struct ModulusOfLaws {
-  double value = 0.0, lower = 0.0, upper = 0.0;
-  std::vector<const LawFit*> laws;  ///< whose intervals it holds, of a ranking
-};
-/// Of one law, by its coefficients' covariance.
-ModulusOfLaws modulus_of(const LawFit& fit);
-/// Of the law `taken`; the interval is that of all stable laws of the ranking that are supported as
-/// well as the best of them (as_good_aicc) and tell G within a factor of two, by Akaike's weights,
-/// exp(-(AICc - the best)/2) (Burnham & Anderson, ch. 4): at rest they differ.
+/// G at rest of the law `taken`; the interval is that of all stable laws of the ranking that are
+/// supported as well as the best of them (as_good_aicc) and tell G within a factor of two, by
+/// Akaike's weights, exp(-(AICc - the best)/2) (Burnham & Anderson, ch. 4): at rest they differ.
 ModulusOfLaws modulus_of_laws(const std::vector<LawFit>& ranking, const LawFit& taken);
 
 /// The laws that it chooses among; none where none passed its own tests.

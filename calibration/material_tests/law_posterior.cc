@@ -1,12 +1,13 @@
 #include "calibration/material_tests/law_posterior.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <utility>
 
 #include "calibration/material_tests/strain_grid.h"
+#include "calibration/material_tests/zeroed_model.h"
 #include "calibration/statistics/posterior.h"
 
 namespace fingertip::calibration::inline material_tests {
@@ -107,8 +108,14 @@ Seen seen_of(const LawCurves& data, std::size_t t, std::unique_ptr<ForwardModel>
   return seen;
 }
 
-/// What the law misses of every test, and factors on the parts of several that differ: their mean
-/// is the rubber's, so that no factor is common to all.
+/// The law's own stress, of `computed` with a zero, over the scale.
+VectorXd stress_of(const Seen& test, const ZeroPlaces& zeros, const VectorXd& estimates,
+                   VectorXd computed) {
+  if (zeros.stress) computed -= estimates(*zeros.stress) * test.per_scale;
+  return computed;
+}
+
+/// What the law misses of every test, and factors on the parts of several.
 std::vector<ErrorComponent> components_of(const std::vector<Seen>& tests,
                                           const std::vector<ZeroPlaces>& zeros,
                                           const VectorXd& estimates, const VectorXd& computed) {
@@ -121,8 +128,7 @@ std::vector<ErrorComponent> components_of(const std::vector<Seen>& tests,
   Index first = 0;
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const Index rows = tests[t].way.size();
-    VectorXd stress = computed.segment(first, rows);
-    if (zeros[t].stress) stress -= estimates(*zeros[t].stress) * tests[t].per_scale;
+    const VectorXd stress = stress_of(tests[t], zeros[t], estimates, computed.segment(first, rows));
     // Where stresses are small it is a share of them; large ones count alike, as in the search.
     const VectorXd size = stress.cwiseAbs().cwiseMin(stress.norm() / std::sqrt(double(rows)));
     append(missed.columns, first, size.asDiagonal() * smooth_columns(tests[t].way, smooth_length));
@@ -137,14 +143,16 @@ std::vector<ErrorComponent> components_of(const std::vector<Seen>& tests,
 
 /// Of the errors of means of specimens, shares of the stresses that are computed: by those that are
 /// measured a fit to nothing at all would seem as good (Peelle's puzzle).
-MatrixXd covariance_of(const std::vector<Seen>& tests, const VectorXd& estimates, Index values) {
+MatrixXd covariance_of(const std::vector<Seen>& tests, const std::vector<ZeroPlaces>& zeros,
+                       const VectorXd& estimates, Index values) {
   MatrixXd covariance;
   Index first = 0;
-  for (const Seen& test : tests) {
-    const Index rows = test.way.size();
-    if (test.of_mean > 0.0) {
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const Index rows = tests[t].way.size();
+    if (tests[t].of_mean > 0.0) {
       if (covariance.size() == 0) covariance = MatrixXd::Zero(values, values);
-      const VectorXd off = test.of_mean * test.model->evaluate(estimates).value;
+      const VectorXd off = tests[t].of_mean * stress_of(tests[t], zeros[t], estimates,
+                                                        tests[t].model->evaluate(estimates).value);
       covariance.block(first, first, rows, rows) = off * off.transpose();
     }
     first += rows;
@@ -152,15 +160,32 @@ MatrixXd covariance_of(const std::vector<Seen>& tests, const VectorXd& estimates
   return covariance;
 }
 
+/// -2 ln of Cauchy's density over that of the normal one in its place, of zeros beyond what is
+/// usual.
+double heavy_tails(const std::vector<FreeParameter>& told, const std::vector<FreeParameter>& used,
+                   const VectorXd& estimates) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < told.size(); ++j) {
+    if (!told[j].prior || !told[j].prior->heavy_tails) continue;
+    const double own = told[j].prior->deviation, normal = used[j].prior->deviation,
+                 zero = estimates(Index(j)) - told[j].prior->mean;
+    sum +=
+        2.0 * std::log(own * (1.0 + std::pow(zero / own, 2)) / normal) - std::pow(zero / normal, 2);
+  }
+  return sum;
+}
+
 /// AICc with errors that hang together, k being the parameters without a prior and a deviation.
-double criterion_of(const ValueErrors& errors, const std::vector<FreeParameter>& free,
-                    Index values) {
+double criterion_of(const Posterior& found, const std::vector<FreeParameter>& told, Index values) {
+  constexpr double odd_one_in = 25.0;
   const double n = double(values),
                k = 1.0 + double(std::ranges::count_if(
-                             free, [](const FreeParameter&each) { return !each.prior; }));
-  return n <= k + 1.0
-             ? std::numeric_limits<double>::infinity()
-             : -2.0 * errors.log_likelihood + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+                             told, [](const FreeParameter&each) { return !each.prior; }));
+  if (n <= k + 1.0) return std::numeric_limits<double>::infinity();
+  return -2.0 * found.errors.log_likelihood +
+         heavy_tails(told, found.options.free, found.fit.estimates) +
+         2.0 * std::log(odd_one_in) * double(found.odd.size()) + 2.0 * k +
+         2.0 * k * (k + 1.0) / (n - k - 1.0);
 }
 
 }  // namespace
@@ -199,21 +224,78 @@ std::vector<ZeroPlaces> add_zeros(const std::vector<MaterialTest>& tests, bool u
   return places;
 }
 
+namespace {
+
+/// G and its ends, each as many standard errors away as the furthest of any coefficient.
+std::array<double, 3> modulus_interval(const LawChoice& choice, const CurveFit& fit) {
+  const VectorXd slopes = shear_modulus_slopes(choice, fit.estimates);
+  const Index own = slopes.size();
+  const double g = sized_law(choice, fit.estimates).shear_modulus,
+               deviation = std::sqrt(slopes.dot(fit.covariance.topLeftCorner(own, own) * slopes));
+  double below = 0.0, above = 0.0;
+  for (Index i = 0; i < own; ++i) {
+    const double error = fit.standard_errors(i);
+    if (!(error > 0.0)) continue;
+    const double down = (fit.estimates(i) - fit.lower(i)) / error,
+                 up = (fit.upper(i) - fit.estimates(i)) / error;
+    below = std::max(below, slopes(i) < 0.0 ? up : down);
+    above = std::max(above, slopes(i) < 0.0 ? down : up);
+  }
+  return {g, g - below * deviation, g + above * deviation};
+}
+
+/// Of the posterior, whose parameters stand at `places`, what `fit` has.
+void put_intervals(const CurveFit& posterior, const std::vector<Index>& places, CurveFit& fit) {
+  fit.covariance = posterior.covariance(places, places);
+  fit.correlation = posterior.correlation(places, places);
+  fit.standard_errors = posterior.standard_errors(places);
+  fit.lower = fit.estimates.cwiseMin(posterior.lower(places));
+  fit.upper = fit.estimates.cwiseMax(posterior.upper(places));
+  fit.birge_ratio = 1.0;
+}
+
+/// `places` of all zeros among those of the posterior, `sought` that are not usual ones.
+UsualZeros usual_zeros(const MaterialTest& test, const SizedLaw& law, const ZeroPlaces& places,
+                       const ZeroPlaces& sought, const CurveFit& posterior) {
+  UsualZeros usual;
+  if (!changes_shape(test)) return usual;
+  constexpr double step = 1e-5;
+  const double slope = test_stress(law, test.kind, test.measure, rest_of(test.kind) + step) / step;
+  VectorXd by = VectorXd::Zero(posterior.estimates.size());  // d(stress at rest)/d(parameters)
+  if (places.stress && !sought.stress) {
+    by(*places.stress) = 1.0;
+    usual.stress = posterior.estimates(*places.stress);
+    usual.at_rest_usual = usual_zero * largest_stress(test);
+  }
+  if (places.strain && !sought.strain) {
+    by(*places.strain) = -slope;
+    usual.strain = posterior.estimates(*places.strain);
+    usual.at_rest_usual = std::hypot(usual.at_rest_usual, slope * usual_zero * reach_of(test));
+  }
+  usual.at_rest = usual.stress - slope * usual.strain;
+  usual.at_rest_error = std::sqrt(by.dot(posterior.covariance * by));
+  return usual;
+}
+
+}  // namespace
+
 void add_posterior(const LawCurves& data, const CurveFitOptions& options, LawFit& fit) {
   PosteriorInput input;
   input.options = options;
   input.options.start_once();
-  const std::vector<ZeroPlaces> before =
-      std::exchange(fit.zeros, add_zeros(data.tests, true, input.options));
-  const std::vector<ZeroPlaces>& zeros = fit.zeros;
+  const std::vector<ZeroPlaces> zeros = add_zeros(data.tests, true, input.options);
   const Index own = Index(options.free.size());
   CurveFit first = fit.fit;
   first.estimates = VectorXd::Zero(Index(input.options.free.size()));
   first.estimates.head(own) = fit.fit.estimates.head(own);
-  for (std::size_t t = 0; t < zeros.size(); ++t) {
-    if (before[t].stress) first.estimates(*zeros[t].stress) = fit.fit.estimates(*before[t].stress);
-    if (before[t].strain) first.estimates(*zeros[t].strain) = fit.fit.estimates(*before[t].strain);
-  }
+  std::vector<Index> places(std::size_t(fit.fit.estimates.size()));  // of what is sought
+  for (Index j = 0; j < own; ++j) places[std::size_t(j)] = j;
+  for (std::size_t t = 0; t < zeros.size(); ++t)
+    for (const auto zero : {&ZeroPlaces::stress, &ZeroPlaces::strain})
+      if (const auto& place = fit.zeros[t].*zero) {
+        places[std::size_t(*place)] = *(zeros[t].*zero);
+        first.estimates(*(zeros[t].*zero)) = fit.fit.estimates(*place);
+      }
   std::vector<Seen> tests;
   const std::vector<MaterialParameter> parameters = parameters_in(input.options);
   for (std::size_t t = 0; t < data.tests.size(); ++t) {
@@ -228,41 +310,48 @@ void add_posterior(const LawCurves& data, const CurveFitOptions& options, LawFit
   input.deviations = stacked(deviations);
   input.begins_open = false;  // zeros of stress and strain are nearly the same
   input.noise_told = !data.curves.front().sigma.empty();
-  input.options.model_covariance = covariance_of(tests, first.estimates, input.deviations.size());
+  input.options.model_covariance =
+      covariance_of(tests, zeros, first.estimates, input.deviations.size());
   input.components = [&](const VectorXd& estimates, const VectorXd& computed) {
     return components_of(tests, zeros, estimates, computed);
   };
   Posterior found = posterior_fit(input, first);
   put_posterior(found.errors, found.options.free, found.fit);
-  fit.aicc = criterion_of(found.errors, input.options.free, input.deviations.size());
-  // What tells of the search, and of the values themselves, stays.
-  found.fit.minima = fit.fit.minima;
-  found.fit.converged = found.fit.converged && fit.fit.converged;
-  found.fit.evaluations += fit.fit.evaluations;
-  found.fit.chi_square = fit.fit.chi_square;
-  found.fit.chi_square_probability = fit.fit.chi_square_probability;
-  found.fit.birge_ratio = 1.0;
-  found.fit.residual_deviation = found.errors.noise;
-  found.fit.unidentifiable = fit.fit.unidentifiable;
-  fit.fit = std::move(found.fit);
+  put_intervals(found.fit, places, fit.fit);
+  fit.modulus = modulus_interval(fit.choice, found.fit);
+  fit.aicc = criterion_of(found, input.options.free, input.deviations.size());
+  const SizedLaw law = sized_law(fit.choice, found.fit.estimates);
+  for (std::size_t t = 0; t < zeros.size(); ++t)
+    fit.usual.push_back(usual_zeros(data.tests[t], law, zeros[t], fit.zeros[t], found.fit));
+  const VectorXd values = all_values(input.curves), noise = found.errors.noise * input.deviations,
+                 left = linearised(input.curves, input.models, input.options.free, first.estimates)
+                            .residuals;
   Index row = 0;
-  const VectorXd values = all_values(input.curves);
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const auto rows = Eigen::seqN(row, tests[t].way.size());
     for (std::size_t k = 0; k < tests[t].parts.size(); ++k) {
       const VectorXd weight = tests[t].in_part.col(Index(k)),
                      stress = values(rows).cwiseProduct(weight);
-      const auto along = [&](std::size_t c) -> VectorXd {
-        return found.errors.parts[c](rows).cwiseProduct(weight);
-      };
+      if (!(stress.squaredNorm() > 0.0)) continue;
+      const VectorXd off = left(rows).cwiseProduct(weight), by_law = stress - off;
+      const double factor = off.dot(by_law) / by_law.squaredNorm();
       PartErrors& errors = fit.parts.emplace_back(PartErrors{t, tests[t].parts[k]});
-      errors.misfit = along(0).norm() / stress.norm();
+      errors.misfit = std::sqrt(std::max(0.0, (off - factor * by_law).squaredNorm() -
+                                                  noise(rows).cwiseProduct(weight).squaredNorm()) /
+                                stress.squaredNorm());
       errors.misfit_seen = found.errors.seen[0] > 6.0;
       if (found.errors.parts.size() > 1)
-        errors.factor = 1.0 / (1.0 - along(1).dot(stress) / stress.squaredNorm());
+        errors.factor = 1.0 / (1.0 - found.errors.parts[1](rows).cwiseProduct(weight).dot(stress) /
+                                         stress.squaredNorm());
     }
     row += tests[t].way.size();
   }
+}
+
+ModulusOfLaws modulus_of(const LawFit& fit) {
+  const double g = fit.law.shear_modulus;
+  const auto ends = fit.modulus ? *fit.modulus : modulus_interval(fit.choice, fit.fit);
+  return {g, std::min(g, ends[1]), std::max(g, ends[2]), {&fit}};
 }
 
 }  // namespace fingertip::calibration::inline material_tests

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "calibration/material_tests/law_result.h"
-#include "calibration/material_tests/zeroed_model.h"
 #include "calibration/statistics/curve.h"
 #include "calibration/statistics/fit_options.h"
 
@@ -24,14 +23,23 @@ struct LawCurves {
 
 /// Zeros that are sought, and zeros that are usual: of the stress of every test that changes the
 /// shape, with the error of what was taken off where rows at rest told it; of the strain of slow
-/// ones. Behind the other parameters, starts and all; `usual` leaves out the second kind.
+/// ones. Behind the other parameters, starts and all; without `usual` those alone that are sought.
 std::vector<ZeroPlaces> add_zeros(const std::vector<MaterialTest>& tests, bool usual,
                                   CurveFitOptions& options);
 
-/// In place of what the search for a law with `options` and the sought zeros has found, `fit.fit`
-/// and `fit.zeros`, the posterior with usual zeros, a factor on each of several tests, a smooth
-/// part of each that the law misses, and noise, all of sizes that the tests tell (posterior_fit).
-/// Not of cycles.
+/// Of what least squares have found with `options` and the sought zeros, `fit.fit` and `fit.zeros`,
+/// the posterior: usual zeros, a factor on each of several tests, a smooth part of each that the
+/// law misses, and noise, all of sizes that the tests tell (posterior_fit). It gives intervals,
+/// AICc and what is off in the tests; the estimates stay, for where a law misses much they are
+/// those that meet the stresses best, as people expect. Of slow tests.
 void add_posterior(const LawCurves& data, const CurveFitOptions& options, LawFit& fit);
+
+/// The shear modulus at rest, after long times [Pa], with its 95 % interval.
+struct ModulusOfLaws {
+  double value = 0.0, lower = 0.0, upper = 0.0;
+  std::vector<const LawFit*> laws;  ///< whose intervals it holds, of a ranking
+};
+/// Of one law: the posterior's interval, else by its coefficients' covariance.
+ModulusOfLaws modulus_of(const LawFit& fit);
 
 }  // namespace fingertip::calibration::inline material_tests

@@ -73,13 +73,22 @@ struct UntestedMode {
   double share = 0.0;    ///< |stress| over that in the way tested, at the same largest stretch
 };
 
-/// What is off in a part of a test besides noise and zeros.
+/// What is off in a part of a test besides noise.
 struct PartErrors {
   std::size_t test = 0;  ///< among those fitted
   TestPart part;
-  double factor = 1.0;       ///< of its stresses on those of the law; of several parts
-  double misfit = 0.0;       ///< root mean square of the smooth part that the law misses, relative
-  bool misfit_seen = false;  ///< by no chance
+  double factor = 1.0;  ///< of its stresses on those of the law; of several parts
+  /// Root mean square of what least squares leave, noise and a factor taken off, over that of it.
+  double misfit = 0.0;
+  bool misfit_seen = false;  ///< of all tests together by no chance
+};
+
+/// Zeros of a test that nobody told: of stress [Pa] and of strain, and what both make of the stress
+/// at rest [Pa], with its standard error and deviation before any test. Both may be large and
+/// cancel there, where a law is too simple.
+struct UsualZeros {
+  double stress = 0.0, strain = 0.0;
+  double at_rest = 0.0, at_rest_error = 0.0, at_rest_usual = 0.0;
 };
 
 /// Where a test's zeros stand among a fit's parameters; none: they are zero.
@@ -89,16 +98,18 @@ struct ZeroPlaces {
 
 struct LawFit {
   LawChoice choice;
-  /// Over scaled stresses, without whitening and influence; coefficients, then bulk_modulus where
-  /// it was sought.
+  /// Least squares over scaled stresses, without whitening and influence; coefficients, then
+  /// bulk_modulus and zeros where they were sought. Of slow tests covariance and intervals are
+  /// those of the posterior.
   CurveFit fit;
   SizedLaw law;
   meshes::Relaxation relaxation;       ///< the fastest branch first
   std::optional<double> bulk_modulus;  ///< [Pa]; none: no volumetric test
   /// -2 ln L + 2k + 2k(k + 1)/(n - k - 1), L the likelihood of n values, what the law misses
   /// smoothly, factors and zeros integrated out, k the coefficients, zeros that are sought, and a
-  /// deviation (Hurvich & Tsai, Biometrika 76, 297, 1989). Of tests in time n ln(S/n) in place of
-  /// -2 ln L, S the weighted sum of squares, with sigma S. Infinite where n <= k + 1.
+  /// deviation (Hurvich & Tsai, Biometrika 76, 297, 1989), values being means of rows, at most 60
+  /// of a test; an odd value costs its chance, one in 25. Of tests in time n ln(S/n) in place of -2
+  /// ln L, S the weighted sum of squares, with sigma S. Infinite where n <= k + 1.
   double aicc = 0.0;
   std::array<double, 2> tested = {1.0, 1.0};  ///< principal stretches of the fitted tests
   /// Where the fitted tests tell how stress fades, from when to when [s] (observed_times).
@@ -106,7 +117,10 @@ struct LawFit {
   /// Branches outside of those times, which the tests hardly know, and what would show them.
   std::vector<std::string> open_branches;
   std::vector<TestMisfit> fitted, predicted;
-  std::vector<ZeroPlaces> zeros;  ///< per test fitted
+  std::vector<ZeroPlaces> zeros;  ///< per test fitted, where they were sought
+  std::vector<UsualZeros> usual;  ///< per test fitted, where they were not; of slow tests
+  /// The shear modulus at rest by the posterior and its 95 % interval [Pa]; of slow tests.
+  std::optional<std::array<double, 3>> modulus;
   std::vector<PartErrors> parts;  ///< of the tests fitted that change the shape; of slow ones
   /// Where the fitted tests know one way of deforming alone, the others, as far as that was
   /// strained and the law will be used.

@@ -203,10 +203,11 @@ std::vector<std::string> failed_tests(const FitRecord& record) {
   Sentences found;
   const CurveFit& fit = record.fit;
   if (!fit.converged)
-    found.push_back("the search did not end within " + std::to_string(fit.evaluations) +
-                    (fit.evaluations == 1 ? " evaluation" : " evaluations") +
-                    ", and the estimates are the best seen so far: allow more, free "
-                    "fewer parameters, or leave out depths that the model does not resolve");
+    found.push_back(
+        "the search did not end within " + std::to_string(fit.evaluations) +
+        (fit.evaluations == 1 ? " evaluation" : " evaluations") +
+        ", and the estimates are the best seen so far: allow more (calibration.evaluations), free "
+        "fewer parameters, or leave out depths that the model does not resolve");
   judge_misfit(found, record);
   judge_touch(found, record);
   judge_unloading(found, record);

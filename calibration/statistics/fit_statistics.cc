@@ -135,14 +135,13 @@ double normal_95() {
 
 double mixture_point(const std::vector<double>& means, const std::vector<double>& deviations,
                      const std::vector<double>& weights, double share) {
-  constexpr double close = 1e-6;  // of the whole
+  constexpr int halvings = 40;
   double low = means.front(), high = low;
   for (std::size_t i = 0; i < means.size(); ++i) {
     low = std::min(low, means[i] - 10.0 * deviations[i]);
     high = std::max(high, means[i] + 10.0 * deviations[i]);
   }
-  const double whole = high - low;
-  while (high - low > close * whole) {
+  for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
     double below = 0.0;
     // Boost's distribution counts in long doubles, which take ten times as long.

@@ -15,8 +15,8 @@ namespace fingertip::calibration::inline statistics {
 double student_95(double degrees_of_freedom);
 double normal_95();
 
-/// Where a mixture of normal distributions, as many of each and `weights` of sum 1, has a share
-/// below it.
+/// Below which a mixture of normal distributions has `share`; the three lists have an entry per
+/// distribution, weights of sum 1.
 double mixture_point(const std::vector<double>& means, const std::vector<double>& deviations,
                      const std::vector<double>& weights, double share);
 

@@ -27,8 +27,8 @@ struct PosteriorInput {
   CurveFitOptions options;
   Eigen::VectorXd deviations;  ///< LinearisedFit::deviations of all values
   bool noise_told = false;
-  /// The first round lets the data choose which of the priors with heavy tails is broken; else one
-  /// is where the data leave nothing else.
+  /// The first round has hardly any priors with heavy tails, so that the data choose which one is
+  /// broken; else all hold at first.
   bool begins_open = true;
   /// No file resolves less, over the largest |value| [1].
   double least_told = 1e-5;
@@ -50,7 +50,8 @@ struct Posterior {
 LinearisedFit linearised(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
                          const std::vector<FreeParameter>& free, const Eigen::VectorXd& estimates);
 
-/// From where `first` ended, again and again until errors (value_errors) and estimates stay. A
+/// From where `first` ended, again and again, twelve times at most, until estimates and odd values
+/// stay; errors are those of value_errors. A
 /// prior with heavy tails is the normal one that has the same slope there. Values 4.5 deviations
 /// off, everything else taken out, are odd unless they are more than one in 25; their noise becomes
 /// what they are off by. Throws as fit_curves and value_errors do.

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "calibration/statistics/fit_statistics.h"
@@ -26,8 +27,7 @@ constexpr double least_size = 1e-3, most_size = 100.0, size_step = 0.5, coarse_s
 constexpr int noise_points = 7;
 constexpr double noise_reach = 2.5;
 
-/// A parameter that changes the values by less has no unit of its own, nor a variance that fits a
-/// number.
+/// A parameter that changes the values by less counts as one that does not.
 constexpr double invisible = 1e-50;
 
 /// The values in coordinates in which noise and known errors of the models are independent, and
@@ -116,7 +116,7 @@ class MixedModel {
     // What neither values nor priors tell, of one or of several alike, has a huge variance, not an
     // infinite one.
     matrix.diagonal().head(parameters_).array() *= 1.0 + 1e-10;
-    matrix.diagonal().head(parameters_).array() += 1e-12;
+    matrix.diagonal().head(parameters_).array() += 1e-12 / (noise * noise);
     const Eigen::LDLT<MatrixXd> factor(matrix);
     Point point;
     point.expected = factor.solve(right);
@@ -256,7 +256,7 @@ class Grid {
       if (found) break;
     }
     centre_ = best;
-    if (there > best_) best_choice_ = {std::exp(best), sizes, there};
+    if (best_choice_.sizes.empty() || there > best_) best_choice_ = {std::exp(best), sizes, there};
     const double deviation = std::clamp(1.0 / std::sqrt(std::max(-bend, 1e-2)), 0.01, 2.0);
     best_without_.resize(sizes.size(), -std::numeric_limits<double>::infinity());
     best_ = std::max(best_, there);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "calibration/statistics/fit_options.h"
@@ -44,8 +43,8 @@ struct ValueErrors {
   Eigen::MatrixXd covariance;            ///< of the parameters
   /// Of the data, between models of the same parameters.
   double log_evidence = 0.0;
-  /// With the likeliest sizes and parameters, those with a prior integrated out: between models of
-  /// other parameters.
+  /// With the parameters at their best, those with a prior integrated out, and the sizes likeliest
+  /// by the restricted likelihood: between models of other parameters.
   double log_likelihood = 0.0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 
 #include "calibration/press_fit/model_error.h"
 #include "studies/fits/models/fit_rig.h"
@@ -144,11 +145,18 @@ std::vector<ScoreTest> score_tests_of(const FitInput& input, const calibration::
   });
   std::ranges::stable_sort(found, std::greater<>(), &ScoreTest::decrease);
   // What explains as much and shows itself besides goes first: no other cause makes a loop.
-  // A stiffening has no cause of its own: those that are named go before it.
-  const bool unnamed = !found.empty() && found.front().name == stiffening_name;
+  // A stiffening has no cause of its own: those that are named go before it. A touch may be
+  // anywhere, a load cell's zero is usually small.
+  using enum calibration::MaterialParameter;
+  const auto is_first = [&](std::string_view name) {
+    return !found.empty() && found.front().name == name;
+  };
+  const bool unnamed = is_first(stiffening_name),
+             of_zero = is_first(calibration::name(force_offset));
   const auto better = std::ranges::find_if(found, [&](const ScoreTest& each) {
     return each.decrease > nearly_all * found.front().decrease &&
-           (each.name == relaxation_name || (unnamed && each.name != stiffening_name));
+           (each.name == relaxation_name || (unnamed && each.name != stiffening_name) ||
+            (of_zero && each.name == calibration::name(touch_offset)));
   });
   if (better != found.end()) std::rotate(found.begin(), better, better + 1);
   return found;

@@ -122,14 +122,13 @@ TEST_F(OpenData, SumsOfSquaresOfCylindersAreThoseThatTheirAuthorsFound) {
     }
 }
 
-TEST_F(OpenData, OneSpecimenPredictsTheOtherWithinFivePercentNotWithinItsNoise) {
-  for (const auto& [material, error, within] :
-       {std::tuple("EF10", 0.036, 0.6), {"EF30", 0.017, 0.9}}) {
+TEST_F(OpenData, OneSpecimenPredictsTheOtherWithinFivePercentAndItsInterval) {
+  for (const auto& [material, error] : {std::pair("EF10", 0.036), {"EF30", 0.017}}) {
     const auto a = cylinders(material, {"A1", "A2", "A3"}, 200),
                b = cylinders(material, {"B1", "B2", "B3"}, 200);
     const TestMisfit other = predict(fit({a}, "yeoh-3"), b);
     EXPECT_NEAR(other.rms_relative, error, 0.003);
-    EXPECT_NEAR(other.within, within, 0.05);
+    EXPECT_GE(other.within, 0.95);
   }
 }
 

@@ -82,10 +82,10 @@ std::string way_of(const LawTestEntry& test) {
 }
 
 Table test_table(const LawEntry& law) {
-  Table table{heads({"Test", "Points", "Error\nrms", "Error\nlargest", "Missed\nsmoothly",
-                     "Over the\nlaw's stress", "Within", "Loop\nmeasured, J/m³",
-                     "Loop\nof the law"}),
-              true};
+  Table table{
+      heads({"Test", "Points", "Error\nrms", "Error\nlargest", "Missed\nsmoothly",
+             "Over the\nlaw's stress", "Within", "Loop\nmeasured, J/m³", "Loop\nof the law"}),
+      true};
   for (const LawTestEntry& test : law.tests) {
     const double error = test.loop_computed / test.loop_measured - 1.0;
     table.rows.push_back(
