@@ -43,6 +43,12 @@ constexpr std::array<double, 2> press_range = {0.5, 2.0};
 /// A prediction that misses by more contradicts the law.
 constexpr double miss = 0.1;
 
+/// A sentence that forbids to use the law.
+void fail(LawFit& result, const std::string& sentence) {
+  result.contradictions.push_back(sentence);
+  result.failed.push_back(sentence);
+}
+
 std::string instability_text(const meshes::Instability& at, const char* where) {
   return "the law is unstable (Drucker) from the stretch " + rounded(at.stretch) + " on in " +
          std::string(name(at.test)) + " tests, which is " + where;
@@ -175,6 +181,11 @@ void add_slack(LawFit& result, const std::vector<MaterialTest>& tests) {
   }
 }
 
+/// What makes a stress vanish elsewhere than at rest, and what to do.
+constexpr const char* of_strain =
+    ". An unloading of a specimen that has kept a set, slack, or a wrong zero of the strain: give "
+    "the loading from rest on, or write zero = \"fit\" in its strain";
+
 /// Where the stress vanishes by a line through the rows of least stress, a third of the largest and
 /// below; none where so few rows tell no line.
 std::optional<double> where_stress_vanishes(const MaterialTest& test) {
@@ -206,8 +217,7 @@ std::string begins_without_stress(const MaterialTest& test) {
     return "";
   return test.name + " does not go through rest: its stress vanishes at the deformation " +
          rounded(rest + *vanishes, 4) + ", where its rows begin, and not at " + rounded(rest, 1) +
-         ". An unloading of a specimen that has kept a set, slack, or a wrong zero of the strain: "
-         "give the loading from rest on, or write zero = \"fit\" in its strain";
+         of_strain;
 }
 
 /// Where the stress of a slow test has its largest mean over a tenth of its rows, if it falls
@@ -364,12 +374,9 @@ void add_rest(LawFit& result, const std::vector<MaterialTest>& tests) {
                " of the largest. The load cell's zero, or a set or slack of the specimen: "
                "write zero = \"fit\" in its stress, or in its strain, or give rows at rest");
     else
-      fail(result,
-           begin + "a stress that vanishes at the deformation " +
-               rounded(rest_of(test.kind) + zeros.strain, 4) + " and not at " +
-               rounded(rest_of(test.kind), 1) +
-               ". An unloading of a specimen that has kept a set, slack, or a wrong zero of the "
-               "strain: give the loading from rest on, or write zero = \"fit\" in its strain");
+      fail(result, begin + "a stress that vanishes at the deformation " +
+                       rounded(rest_of(test.kind) + zeros.strain, 4) + " and not at " +
+                       rounded(rest_of(test.kind), 1) + of_strain);
   }
 }
 
@@ -402,11 +409,6 @@ void add_misfits(LawFit& result, const std::vector<MaterialTest>& tests) {
 }
 
 }  // namespace
-
-void fail(LawFit& result, const std::string& sentence) {
-  result.contradictions.push_back(sentence);
-  result.failed.push_back(sentence);
-}
 
 void add_contradictions(LawFit& result, const std::vector<MaterialTest>& tests,
                         const LawFitOptions& options) {

@@ -8,9 +8,6 @@
 
 namespace fingertip::calibration::inline material_tests {
 
-/// A sentence that forbids to use the law.
-void fail(LawFit& result, const std::string& sentence);
-
 /// Of the fit to `tests`, whose sought zeros are taken off: instabilities, open coefficients,
 /// branches and G, doubts of files, slack, what it misses, tests that contradict each other, do not
 /// go through rest, or whose stress falls.

@@ -136,8 +136,7 @@ std::vector<ErrorComponent> components_of(const std::vector<Seen>& tests,
     first += rows;
   }
   std::vector<ErrorComponent> components{missed};
-  if (factors.columns.cols() < 2) return components;
-  components.push_back(factors);
+  if (factors.columns.cols() > 1) components.push_back(factors);
   return components;
 }
 

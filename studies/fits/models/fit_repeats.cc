@@ -74,6 +74,8 @@ bool scatter(const std::vector<calibration::Repeats>& repeats) {
 using calibration::Curve, calibration::CurveFit, calibration::Repeats;
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
+namespace {
+
 /// Of groups of two curves or more.
 std::vector<calibration::Repeats> repeats_in(const FitInput& input,
                                              const calibration::CurveFit& fit) {
@@ -91,8 +93,6 @@ std::vector<calibration::Repeats> repeats_in(const FitInput& input,
       found.push_back(calibration::repeats_of(curves, all, fit, nuisance, touch, zero));
   return found;
 }
-
-namespace {
 
 /// Over the deepest press of the same kind: what a model misses is smooth on this scale. It is a
 /// share of the force and, independent of that, a tenth of such a share of the largest one: errors
