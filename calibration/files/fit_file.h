@@ -208,6 +208,16 @@ struct ErrorsEntry {
 FINGERTIP_FIELDS(ErrorsEntry, noise, over_told, misfit, misfit_upper, misfit_seen, scatter,
                  log_evidence);
 
+/// What an error of a number that describes the presses does to the estimates.
+struct SensitivityEntry {
+  std::string name;  ///< "tip_radius"
+  /// The number as described, and a step of it [m, rad, 1]: a standard deviation where it counts.
+  double value = meshes::unknown, step = meshes::unknown;
+  bool counts = false;              ///< in the intervals
+  meshes::Entries<double> changes;  ///< of the rubber's estimates, were it larger by the step
+};
+FINGERTIP_FIELDS(SensitivityEntry, name, value, step, counts, changes);
+
 /// What a further measurement would make of a parameter's 95 % interval.
 struct NarrowedEntry {
   std::string name;
@@ -288,6 +298,7 @@ struct FitFile {
   std::optional<RigFile> rig;
   std::vector<ScoreTest> lack_of_fit;
   std::optional<ErrorsEntry> errors;  ///< of measured presses
+  std::vector<SensitivityEntry> sensitivities;
   std::vector<NextEntry> next;
   std::optional<ContactEntry> contact;
   std::vector<Repeats> repeats;
@@ -302,11 +313,11 @@ consteval auto fields_of(const FitFile*) {
              only_from_priors, degrees_of_freedom, chi_square, chi_square_probability, birge_ratio,
              model_error, converged, poissons_ratio_bound, residual_deviation, minima, x_quantity,
              y_quantity, curves, residuals, influence, profile, iterations, evaluations, wall_time,
-             validity, failed, rig, lack_of_fit, errors, next, contact, repeats, statement)
+             validity, failed, rig, lack_of_fit, errors, sensitivities, next, contact, repeats,
+             statement)
       .newer(
-          "rubber model_error converged poissons_ratio_bound failed rig lack_of_fit errors next "
-          "contact "
-          "repeats");
+          "rubber model_error converged poissons_ratio_bound failed rig lack_of_fit errors "
+          "sensitivities next contact repeats");
 }
 
 /// What a fit to moduli, which has no curves, has in common with others.

@@ -49,6 +49,7 @@ struct FitRecord {
   std::optional<std::array<double, 2>> observed_times;
   std::vector<RigValue> rig;                     ///< of presses over travel
   std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
+  std::vector<SensitivityEntry> sensitivities;   ///< of the presses' sizes and place
   std::vector<ScoreTest> lack_of_fit;            ///< gravest first
   std::vector<MeasurementGain> next;             ///< further measurements, best first
   std::vector<bool> profiled;         ///< per parameter: its interval is the profile's; or empty

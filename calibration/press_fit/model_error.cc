@@ -58,9 +58,10 @@ double covariance(const Place& a, const Place& b) {
   return sum;
 }
 
-/// Cells through the thickness, and depths between which the ratio of two theories is straight.
+/// Cells through the thickness, and depths between which the ratio of two theories is straight, or
+/// what a size does to the forces.
 constexpr double coarse_cells = 5.0;
-constexpr std::size_t coarse_depths = 8;
+constexpr std::size_t coarse_depths = 8, depths_of_changes = 3;
 
 std::vector<double> forces(PressSetup press, ModelKind model, Kinematics kinematics) {
   press.lattice.model = model;
@@ -83,12 +84,12 @@ std::vector<double> forces(PressSetup press, ModelKind model, Kinematics kinemat
 }
 
 /// Few cells and depths.
-void make_coarse(PressSetup& press) {
+void make_coarse(PressSetup& press, std::size_t depths = coarse_depths) {
   press.lattice.spacing =
       std::min(press.geometry.thickness() / coarse_cells, press.geometry.coarsest_spacing());
   press.rubber.youngs_modulus =
       std::max(press.rubber.youngs_modulus, 2.0 * press.rubber.shear_modulus);
-  press.protocol.samples = meshes::even_depths(press.protocol.samples.back(), coarse_depths);
+  press.protocol.samples = meshes::even_depths(press.protocol.samples.back(), depths);
   press.protocol.depth = press.protocol.samples.back();
 }
 
@@ -145,6 +146,75 @@ Eigen::VectorXd excess_of_other_contact(PressSetup press) {
   other.protocol.contact = press.protocol.contact == stick ? frictionless : stick;
   return excess(press, forces(press, ModelKind::hookean, Kinematics::small),
                 forces(other, ModelKind::hookean, Kinematics::small), wanted);
+}
+
+bool has(const PressSetup& press, Described what) {
+  const meshes::Obstacle& obstacle = press.protocol.obstacle;
+  switch (what) {
+    case Described::tip_radius:
+    case Described::rod_radius: return press.geometry.is_dome();
+    case Described::obstacle_radius: return !obstacle.is_plane();
+    case Described::obstacle_offset: return !obstacle.is_plane() && obstacle.has_offset();
+    default: return true;
+  }
+}
+
+double value_of(const PressSetup& press, Described what) {
+  switch (what) {
+    case Described::scale: return 1.0;
+    case Described::tip_radius: return press.geometry.tip_radius;
+    case Described::rod_radius: return press.geometry.rod_radius;
+    case Described::obstacle_radius: return press.protocol.obstacle.radius;
+    case Described::obstacle_offset: return press.protocol.obstacle.offset;
+    case Described::tilt: return press.protocol.tilt;
+    case Described::poissons_ratio: return press.rubber.poissons_ratio();
+  }
+  return 0.0;
+}
+
+namespace {
+
+/// Forces of a coarse press that differs in one number from that described, on the same cells,
+/// whose errors so nearly cancel: a larger finger is the same one under smaller depths and
+/// obstacles, F = s² F(d/s), a larger tip such a finger with a smaller rod.
+std::vector<double> forces_with(PressSetup press, Described what, double value) {
+  meshes::PressProtocol& protocol = press.protocol;
+  double scale = 1.0;
+  switch (what) {
+    case Described::scale: scale = value; break;
+    case Described::tip_radius:
+      scale = value / press.geometry.tip_radius;
+      press.geometry.rod_radius /= scale;
+      break;
+    case Described::rod_radius: press.geometry.rod_radius = value; break;
+    case Described::obstacle_radius: protocol.obstacle.radius = value; break;
+    case Described::obstacle_offset: protocol.obstacle.offset = value; break;
+    case Described::tilt: protocol.tilt = value; break;
+    case Described::poissons_ratio:
+      press.rubber.shear_modulus = 0.5 * press.rubber.youngs_modulus / (1.0 + value);
+  }
+  for (double& depth : protocol.samples) depth /= scale;
+  for (double* length : {&protocol.depth, &protocol.obstacle.radius, &protocol.obstacle.offset})
+    *length /= scale;
+  std::vector<double> found = forces(press, ModelKind::hookean, Kinematics::small);
+  for (double& force : found) force *= scale * scale;
+  return found;
+}
+
+}  // namespace
+
+Eigen::VectorXd change_between(PressSetup press, Described what, double low, double high) {
+  const std::vector<double> wanted = press.protocol.samples;
+  make_coarse(press, depths_of_changes);
+  const std::vector<double> own = forces(press, ModelKind::hookean, Kinematics::small),
+                            below = forces_with(press, what, low),
+                            above = forces_with(press, what, high);
+  std::vector<double> change;
+  for (std::size_t i = 0; i < own.size(); ++i) change.push_back((above[i] - below[i]) / own[i]);
+  Eigen::VectorXd result{Index(wanted.size())};
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    result(Index(i)) = meshes::interpolated(press.protocol.samples, change, wanted[i]);
+  return result;
 }
 
 }  // namespace fingertip::calibration::inline press_fit

@@ -261,6 +261,30 @@ std::string assumptions(const FitRecord& record) {
   return text.empty() ? text : text + " (calibration.rig).";
 }
 
+/// What errors of sizes, place and Poisson's ratio do to the estimates: of those whose tolerance is
+/// known, or of all others.
+std::string sensitivities(const FitRecord& record, bool counting) {
+  std::string text;
+  for (const SensitivityEntry& each : record.sensitivities) {
+    if (each.counts != counting) continue;
+    const bool of_itself = each.value > 0.0 && each.name.find("ratio") == std::string::npos;
+    text += (text.empty() ? " " : "; ") +
+            (of_itself ? percent(each.step / each.value) : rounded(each.step, 2)) + " more of " +
+            each.name + " would make";
+    for (const auto& [parameter, change] : each.changes) {
+      const auto place =
+          std::ranges::find(record.fit.labels, parameter) - record.fit.labels.begin();
+      const double relative = change / record.fit.estimates(place);
+      text += " " + parameter + " " + percent(std::abs(relative)) +
+              (relative < 0.0 ? " smaller" : " larger");
+    }
+  }
+  if (text.empty()) return text;
+  return text + (counting ? ", which the intervals hold."
+                          : "; the intervals hold none of it "
+                            "(calibration.tolerances).");
+}
+
 /// How much of it there would be: an absurd amount shows that it is not the cause.
 std::string amount_of(const ScoreTest& each) {
   return each.unit == "1" ? percent(each.amount) + " of " + each.share_of
@@ -297,7 +321,8 @@ std::string fit_statement(const FitRecord& record) {
   for (const std::string& failed : failed_tests(record)) text += "Not accepted: " + failed + ". ";
   text += estimates(record.fit) + misfit(record) + repeats(record) + open_directions(record.fit) +
           other_minima(record.fit) + collinearity(record) + assumptions(record) +
-          structures(record) + relaxation_words(record) + loops(record) + lack_of_fit(record);
+          sensitivities(record, true) + sensitivities(record, false) + structures(record) +
+          relaxation_words(record) + loops(record) + lack_of_fit(record);
   const std::string next =
       gain_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
   if (!next.empty()) text += " " + next;

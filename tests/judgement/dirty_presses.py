@@ -553,11 +553,33 @@ def moduli_of_two_contacts(s):
         'calibration.parameters=["youngs_modulus","shear_modulus"]'])
 
 
-@kind("either")
+@kind()
 def ratio_untold(s):
     """Poisson's: E alone is told."""
+    s.ratio = s.random.choice([0.45, 0.47, 0.495])
     s.measured(s.rows())
     return s.fit(ratio="untold")
+
+
+@kind()
+def ratio_in_a_range(s):
+    s.ratio, s.finger = s.random.choice([0.42, 0.45, 0.47]), s.random.choice([{}, SIXTH, THIN])
+    s.measured(s.rows())
+    return s.fit(ratio=0.45, further=["calibration.poisson_range=[0.41,0.48]"])
+
+
+@kind()
+def size_in_tolerance(s):
+    """Rod and tip are not quite as told, by normal distributions that their owner knows."""
+    off = [s.random.gauss(0, 1) for _ in range(2)]
+    tolerances = s.random.uniform(0.05, 0.3), s.random.uniform(0.05, 0.2)
+    sizes = [round(size + deviation * e, 1)
+             for size, deviation, e in zip((5, 10), tolerances, off)]
+    told = {"rod": "5 mm", "tip": "10 mm"}
+    true = {part: f"{size:g} mm" for part, size in zip(told, sizes)}
+    s.measured(s.rows(law=lambda d: s.force(d, finger=true)))
+    fields = ", ".join(f'{part}_radius="{e} mm"' for part, e in zip(told, tolerances))
+    return s.fit(finger=told, further=[f"calibration.tolerances={{{fields}}}"])
 
 
 @kind(False, "(?i)another rubber|poisson")

@@ -99,6 +99,37 @@ Key rig_key() {
   return key;
 }
 
+Key tolerances_key() {
+  Key key;
+  key.section = "calibration";
+  key.name = "tolerances";
+  key.kind = Kind::fields;
+  key.preset = "{}";
+  using calibration::Described;
+  key.fields = {{"scale", "%", "1 %", "of the whole finger"},
+                {"tip_radius", "m", "0.1 mm", "of a dome"},
+                {"rod_radius", "m", "0.1 mm", "of a dome"},
+                {"obstacle_radius", "m", "0.05 mm", "of what is curved"},
+                {"obstacle_offset", "m", "0.2 mm", "of what is curved"},
+                {"tilt", "rad", "1 deg", "of the finger against the obstacle"}};
+  key.help = "how well sizes and place are known: standard deviations that widen the intervals";
+  key.rule =
+      "each is a quantity; those of Poisson's ratio: calibration.poisson_range. Without them is "
+      "told what an error of each would do";
+  key.assign = [](Config& config, const Value& value) {
+    Tolerances& told = config.calibration.tolerances;
+    told.clear();
+    for (std::size_t i = 0; i < value.words.size(); ++i) {
+      // Of "fit", or of a quantity with a deviation of its own, it is no number.
+      const bool alone = value.numbers[3 * i] == 0.0;
+      const Described what = *meshes::enumerator<Described>(value.words[i]);
+      const double unit = what == Described::scale ? 0.01 : 1.0;
+      told.emplace_back(what, alone ? unit * value.numbers[3 * i + 1] : meshes::unknown);
+    }
+  };
+  return key;
+}
+
 }  // namespace
 
 std::vector<Key> calibration_keys() {
@@ -155,6 +186,7 @@ std::vector<Key> calibration_keys() {
           {}),
       forward_key(),
       of_experiment(rig_key()),
+      of_experiment(tolerances_key()),
       of_experiment(entry("noise", {0.0, 1.0, true},
                           "relative standard deviation of the forces that calibrate --plan plans",
                           &Order::noise)),

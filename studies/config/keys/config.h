@@ -8,6 +8,7 @@
 
 #include "calibration/material_tests/law_fit.h"
 #include "calibration/moduli/moduli_fit.h"
+#include "calibration/press_fit/model_error.h"
 #include "fem_reference/job/job.h"
 #include "lattice/control/control_settings.h"
 #include "lattice/grasp/grasp.h"
@@ -85,6 +86,10 @@ struct RigSettings {
   std::filesystem::path blank;  ///< a press of a rigid blank, which tells the compliance; absolute
 };
 
+/// How well numbers are known that describe a press (key calibration.tolerances): standard
+/// deviations, SI.
+using Tolerances = std::vector<std::pair<calibration::Described, double>>;
+
 /// What intervals of parameters are (key calibration.intervals).
 enum class IntervalKind {
   automatic,  ///< profile where the models answer from what they know, else linear
@@ -107,6 +112,7 @@ struct CalibrationSettings {
   std::vector<std::string> parameters;  ///< empty: the problem's own
   ForwardKind forward = ForwardKind::lattice;
   RigSettings rig;
+  Tolerances tolerances;
   std::string machine;       ///< files of one name share a compliance
   double noise = 0.01;       ///< relative, of forces that are planned
   double noise_force = 0.0;  ///< and whatever the force [N]

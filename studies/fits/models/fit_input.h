@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibration/press_fit/fit_record.h"
+#include "calibration/press_fit/model_error.h"
 #include "calibration/statistics/curve.h"
 #include "calibration/statistics/fit_options.h"
 #include "fem_reference/job/job.h"
@@ -61,12 +62,26 @@ struct FitCurve : calibration::Curve {
   /// `continuum` then are Travel::depths.
   std::optional<Travel> travel;
   RowsOfValues rows;  ///< none where these are not measured
-  /// What the model may miss of the force at every sample of its press, relative. Empty: nothing.
-  std::vector<double> theory_error;
+  /// By FitInput::known_errors, how much each changes the force at every sample of its press,
+  /// relative. Empty: not at all.
+  std::vector<std::vector<double>> known_errors;
   /// Likewise, by how much a finite law exceeds the small-strain lattice that is fitted; empty
   /// where it is finite, and where one of the presses finds no equilibrium.
   std::vector<double> finite_excess;
 };
+
+/// An error of known size and unknown sign that all forces share: of the models, or of a number
+/// that describes the presses.
+struct KnownError {
+  std::string name;  ///< for people: "what finite strain adds", "tip_radius"
+  /// Of a number: which, of the presses where it is `value`, and its standard deviation, or of
+  /// which step the changes are.
+  std::optional<calibration::Described> number = std::nullopt;
+  double value = 0.0, step = 0.0;
+  double low = 0.0, high = 0.0;  ///< between which it may be anywhere, sqrt(12) steps apart
+};
+
+inline constexpr const char* finite_strain_error = "what finite strain adds";
 
 /// SI.
 struct FitInput {
@@ -84,7 +99,7 @@ struct FitInput {
   bool scale_to_data = false;
   /// What the lattices are known to miss goes into the covariance of the forces.
   bool with_lattice_error = false;
-  std::string theory_error_of;  ///< what FitCurve::theory_error is, for people
+  std::vector<KnownError> known_errors;
   bool density_known = true, retardation_time_known = true;  ///< of base.rubber, for material.toml
   std::vector<std::string> profile;                          ///< two parameters, or none
   bool profile_intervals = false;                            ///< else those of the covariance

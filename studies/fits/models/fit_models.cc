@@ -202,7 +202,7 @@ ordered_json curve_inputs(const FitInput& input, std::size_t i) {
                          {"is", {is_travel, zero_is_sought, in_time}},
                          {"course", meshes::json_of(course)},
                          {"rows", curve.rows.rows},
-                         {"theory_error", curve.theory_error},
+                         {"known_errors", curve.known_errors},
                          {"finite_excess", curve.finite_excess}};
   if (has_presses(input)) inputs["press"] = inputs_of(curve.press);
   for (const calibration::FitBranch& branch : input.branches)

@@ -110,13 +110,12 @@ Curve as_if_measured(const FitInput& input, const FitModels& models, std::size_t
 }
 
 MatrixXd relative_model_error(const std::vector<lattice::PressSetup>& presses, bool lattice,
-                              const std::vector<double>& theory) {
+                              const MatrixXd& shared) {
   MatrixXd covariance;
   if (lattice) covariance = calibration::lattice_covariance(presses);
-  if (theory.empty()) return covariance;
-  const VectorXd excess = vector_of(theory);
-  if (covariance.size() == 0) covariance = MatrixXd::Zero(excess.size(), excess.size());
-  covariance += excess * excess.transpose();
+  if (shared.cols() == 0) return covariance;
+  if (covariance.size() == 0) covariance = MatrixXd::Zero(shared.rows(), shared.rows());
+  covariance += shared * shared.transpose();
   return covariance;
 }
 
@@ -129,13 +128,31 @@ std::vector<lattice::PressSetup> presses_of_values(const FitInput& input) {
   return presses;
 }
 
-std::vector<double> theory_at_values(const FitInput& input) {
-  std::vector<double> theory;
-  for (const FitCurve& curve : input.curves)
-    if (!curve.theory_error.empty())
-      std::ranges::copy(at_values(curve, start_of(input.options), curve.theory_error),
-                        std::back_inserter(theory));
-  return theory;
+MatrixXd known_errors_at(const FitCurve& curve, const std::vector<std::vector<double>>& at_samples,
+                         const std::vector<double>& depths) {
+  MatrixXd columns = MatrixXd::Zero(Index(depths.size()), Index(at_samples.size()));
+  for (std::size_t k = 0; k < at_samples.size(); ++k)
+    for (std::size_t i = 0; i < depths.size() && !at_samples[k].empty(); ++i)
+      columns(Index(i), Index(k)) =
+          meshes::interpolated(curve.press.protocol.samples, at_samples[k], depths[i]);
+  return columns;
+}
+
+MatrixXd known_errors_at_values(const FitInput& input) {
+  MatrixXd all(0, Index(input.known_errors.size()));
+  for (const FitCurve& curve : input.curves) {
+    std::vector<std::vector<double>> own = curve.known_errors;
+    own.resize(input.known_errors.size());
+    const MatrixXd rows =
+        known_errors_at(curve, own, depths_of_values(curve, start_of(input.options)));
+    all.conservativeResize(all.rows() + rows.rows(), Eigen::NoChange);
+    all.bottomRows(rows.rows()) = rows;
+  }
+  return all;
+}
+
+bool has_model_error(const FitInput& input) {
+  return input.with_lattice_error || !input.known_errors.empty();
 }
 
 namespace {
@@ -147,7 +164,7 @@ struct Joint {
   VectorXd deviation;
   VectorXd forces;
   std::vector<lattice::PressSetup> presses;
-  std::vector<double> theory;
+  MatrixXd known_errors;  ///< a column each
   bool lattice_error = false;
   /// Of the presses in order: what is theirs, and a number that presses alike share.
   struct Press {
@@ -159,7 +176,7 @@ struct Joint {
 
   MatrixXd covariance() const {
     Observations seen{jacobian, deviation, {}};
-    const MatrixXd relative = relative_model_error(presses, lattice_error, theory);
+    const MatrixXd relative = relative_model_error(presses, lattice_error, known_errors);
     // A blank stands behind the presses and has no model.
     if (relative.size() > 0) {
       seen.model_covariance = MatrixXd::Zero(forces.size(), forces.size());
@@ -223,7 +240,7 @@ Joint joint_of(const FitInput& input, const FitModels& models, const VectorXd& p
   }
   joint.lattice_error = input.with_lattice_error;
   if (joint.lattice_error) joint.presses = presses_of_values(input);
-  joint.theory = theory_at_values(input);
+  joint.known_errors = known_errors_at_values(input);
   const ForceAndDepth at = presses_at(input, parameters, joint.forces);
   const auto groups = sharing(input);
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
@@ -256,6 +273,8 @@ FitInput made_anew(const FitInput& input, double depth) {
   curve.travel = first.travel;
   curve.is_travel = first.travel.has_value();
   curve.x = meshes::even_depths(depth, first.x.size());
+  again.known_errors = input.known_errors;
+  curve.known_errors = first.known_errors;
   if (first.time.size() == curve.x.size())
     for (const double time : first.time) curve.time.push_back(time - first.time.front());
   again.options.free.assign(
@@ -321,8 +340,10 @@ Joint with_press(Joint joint, const FitInput& input, const FitInput& own, const 
     joint.presses.push_back(own.curves.front().press);
     joint.presses.back().protocol.samples = own.curves.front().x;
   }
-  if (!joint.theory.empty())
-    joint.theory.resize(std::size_t(joint.forces.size()), input.curves.front().theory_error.back());
+  // Positions of a press that nobody made are its indentations.
+  joint.known_errors.conservativeResize(joint.forces.size(), Eigen::NoChange);
+  joint.known_errors.bottomRows(Index(curve.x.size())) =
+      known_errors_at(own.curves.front(), own.curves.front().known_errors, own.curves.front().x);
   return joint;
 }
 

@@ -33,15 +33,24 @@ calibration::Curve as_if_measured(const FitInput& input, const FitModels& models
                                   const Eigen::VectorXd& parameters, const Noise& noise);
 
 /// Relative covariance of the models' errors at the values of all presses: of their lattices where
-/// `lattice` is set, and `theory`, common to all values; empty where there is neither.
+/// `lattice` is set, and of errors that all values share, a column each; empty where there is
+/// neither.
 Eigen::MatrixXd relative_model_error(const std::vector<lattice::PressSetup>& presses, bool lattice,
-                                     const std::vector<double>& theory);
+                                     const Eigen::MatrixXd& shared);
 
 /// The presses of a fit with the indentations of all values as their samples.
 std::vector<lattice::PressSetup> presses_of_values(const FitInput& input);
 
-/// The theory's relative error at the values of all curves; empty where there is none.
-std::vector<double> theory_at_values(const FitInput& input);
+/// Relative changes of the forces at the values of all curves, a column for each known error.
+Eigen::MatrixXd known_errors_at_values(const FitInput& input);
+
+/// Whether there are any, or lattices that miss something.
+bool has_model_error(const FitInput& input);
+
+/// Changes that are known at a press's samples at other indentations, a column each.
+Eigen::MatrixXd known_errors_at(const FitCurve& curve,
+                                const std::vector<std::vector<double>>& at_samples,
+                                const std::vector<double>& depths);
 
 /// What the curves of `input`, with forces, tell of its parameters there: their covariance, and how
 /// every one of its candidates would narrow it, best first.

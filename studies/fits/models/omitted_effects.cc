@@ -67,7 +67,9 @@ std::vector<Excess> excesses_of(const FitInput& input) {
   std::vector<Excess> excesses;
   std::vector<std::vector<double>> finite;
   for (const FitCurve& curve : input.curves) finite.push_back(curve.finite_excess);
-  if (!finite.front().empty() && input.curves.front().theory_error != finite.front())
+  const bool counts = std::ranges::find(input.known_errors, finite_strain_error,
+                                        &KnownError::name) != input.known_errors.end();
+  if (!finite.front().empty() && !counts)
     excesses.push_back({"finite strain",
                         "the data go beyond small strain (leave lattice.kinematics out)", finite});
   const bool slips = input.curves.front().press.protocol.contact != meshes::ContactMode::stick;

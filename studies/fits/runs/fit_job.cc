@@ -20,6 +20,7 @@
 #include "meshes/press/fields.h"
 #include "meshes/tables/fields_json.h"
 #include "source_hash.h"
+#include "studies/fits/models/described_numbers.h"
 #include "studies/fits/models/fit_models.h"
 #include "studies/fits/models/fit_relaxation.h"
 #include "studies/fits/models/fit_repeats.h"
@@ -144,8 +145,11 @@ void write(const calibration::FitRecord& record, const fs::path& folder) {
 
 std::string model_error_words(const FitInput& input) {
   std::string words = input.with_lattice_error ? "the known error of the lattice" : "";
-  if (!input.theory_error_of.empty())
-    words += std::string(words.empty() ? "" : " and ") + input.theory_error_of;
+  for (const KnownError& error : input.known_errors) {
+    const std::string named = error.number ? "the tolerance of " + error.name : error.name;
+    // One number of several fingers is an error of each.
+    if (words.find(named) == words.npos) words += std::string(words.empty() ? "" : " and ") + named;
+  }
   return words;
 }
 
@@ -166,7 +170,7 @@ void put_model_error(FitInput& input, const Eigen::VectorXd& forces) {
   Eigen::MatrixXd& covariance = input.options.model_covariance;
   covariance = forces.asDiagonal() *
                relative_model_error(presses_of_values(input), input.with_lattice_error,
-                                    theory_at_values(input)) *
+                                    known_errors_at_values(input)) *
                forces.asDiagonal();
   // What is known of the models stands in the covariance: intervals alone tell what is open.
   input.options.relative_singular_value = 0.0;
@@ -183,11 +187,45 @@ Eigen::VectorXd values_at_start(const FitInput& input, const std::vector<Forward
 /// model make it. Errors are relative to forces: at first to those measured, then, lest noise weigh
 /// itself, to those of the start.
 calibration::CurveFit search(FitInput& input, const FitModels& models) {
-  const bool errors = input.with_lattice_error || !input.theory_error_of.empty();
+  const bool errors = has_model_error(input);
   if (errors) put_model_error(input, calibration::all_values(input.curves));
   start_from_data(input, models);
   if (errors) put_model_error(input, values_at_start(input, models.addresses()));
   return calibration::fit_curves(curves_of(input), models.addresses(), input.options);
+}
+
+/// What errors of numbers that describe the presses do to the rubber's estimates. Where a force is
+/// larger than the model's by c, an estimate is too large by what c in the data does to it.
+std::vector<calibration::SensitivityEntry> sensitivities_of(const FitInput& input,
+                                                            const calibration::FitRecord& record,
+                                                            const JobContext& context) {
+  std::vector<calibration::SensitivityEntry> entries;
+  if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return entries;
+  const Eigen::VectorXd computed =
+      calibration::all_values(record.curves) - calibration::stacked(record.fit.residuals);
+  const ForceAndDepth at = presses_at(input, record.fit.estimates, computed);
+  const auto add = [&](const KnownError& error, bool counts, const Eigen::VectorXd& relative) {
+    calibration::SensitivityEntry& entry =
+        entries.emplace_back(error.name, error.value, error.step, counts);
+    for (std::size_t i = 0; i < material_parameters(input); ++i)
+      entry.changes[record.fit.labels[i]] =
+          -record.fit.influence.row(Eigen::Index(i)).dot(at.force.cwiseProduct(relative));
+  };
+  const Eigen::MatrixXd known = known_errors_at_values(input);
+  for (std::size_t k = 0; k < input.known_errors.size(); ++k)
+    if (input.known_errors[k].number) add(input.known_errors[k], true, known.col(Eigen::Index(k)));
+  for (const KnownError& error : untold_numbers(input)) {
+    try {
+      std::vector<Eigen::VectorXd> changes;
+      for (const FitCurve& curve : input.curves)
+        changes.emplace_back(known_errors_at(curve, {changes_of(error, curve.press)},
+                                             depths_of_values(curve, record.fit.estimates)));
+      add(error, false, calibration::stacked(changes));
+    } catch (const meshes::NotConverged& failure) {
+      context.log("what an error of " + error.name + " does is not known: " + failure.what());
+    }
+  }
+  return entries;
 }
 
 /// Of factors between repeats; 0: there are none.
@@ -220,6 +258,7 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   stage = "repeats and intervals";
   const calibration::CurveFit searched = record.fit;
   add_errors_and_intervals(input, list, record);
+  record.sensitivities = sensitivities_of(input, record, context);
   stage = "curves left out";
   if (input.curves.size() > 1)
     record.left_out = calibration::leave_one_out(record.curves, list, record.options, record.fit);
@@ -281,6 +320,8 @@ ordered_json fit_inputs(const FitInput& input) {
   // Held at the default or given as equal to it: the fit is the same, what is told of it is not.
   for (const calibration::RigValue& each : rig_values(input))
     inputs["rig_given"].push_back(each.given);
+  for (const KnownError& each : input.known_errors)
+    inputs["known_errors"].push_back({each.name, each.value, each.step, each.low, each.high});
   inputs["candidates"] = ordered_json::array();
   for (const Candidate& each : input.candidates) {
     inputs["candidates"].push_back({each.name, each.press, each.depth, each.refused});

@@ -13,6 +13,7 @@
 #include "studies/fits/setup/fit_curves.h"
 #include "studies/fits/setup/fit_parameters.h"
 #include "studies/fits/setup/fit_plan.h"
+#include "studies/fits/setup/fit_tolerances.h"
 #include "studies/jobs/provenance.h"
 #include "studies/presses/press_setup.h"
 
@@ -156,10 +157,10 @@ FitSetup assembled(const LoadedConfig& given, Presses presses,
   check_models(loaded, input);
   // A reference ends where every force is known that well, a bar that covers 95 %.
   if (by_continuum(input)) {
-    input.theory_error_of = "the continuum's tolerance";
+    input.known_errors.push_back({"the continuum's tolerance"});
     for (FitCurve& curve : input.curves)
-      curve.theory_error.assign(curve.press.protocol.samples.size(),
-                                0.5 * loaded.config.reference.tolerance);
+      curve.known_errors.emplace_back(curve.press.protocol.samples.size(),
+                                      0.5 * loaded.config.reference.tolerance);
   }
   input.with_lattice_error = std::ranges::all_of(input.curves, is_lattice);
   fit.loaded = given;
@@ -200,8 +201,9 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit, Presses p
     fit.notes.push_back(said + "; small strain is fitted as asked by lattice.kinematics");
     return fit;
   }
-  for (std::size_t i = 0; i < excess.size(); ++i) fit.input.curves[i].theory_error = excess[i];
-  fit.input.theory_error_of = "what finite strain adds";
+  fit.input.known_errors.push_back({finite_strain_error});
+  for (std::size_t i = 0; i < excess.size(); ++i)
+    fit.input.curves[i].known_errors.push_back(excess[i]);
   fit.notes.push_back(said +
                       ": that difference counts as an error of the model, which widens the "
                       "intervals (the finite law: lattice.model = network)");
@@ -228,6 +230,7 @@ FitSetup set_up(const LoadedConfig& loaded, Presses presses,
   FitSetup fit = at_the_right_strain(loaded, std::move(first), presses, excess);
   if (fit.input.base.lattice.kinematics == lattice::Kinematics::small)
     for (std::size_t i = 0; i < excess.size(); ++i) fit.input.curves[i].finite_excess = excess[i];
+  add_tolerances(loaded, fit.input);
   set_budget(loaded, fit);
   if (const std::string note = spacing_note(loaded);
       lattice_of_fit(loaded) != LatticeUse::none && !note.empty())

@@ -11,6 +11,7 @@
 #include "studies/fits/models/fit_rig.h"
 #include "studies/fits/models/travel.h"
 #include "studies/fits/setup/fit_curves.h"
+#include "studies/fits/setup/fit_tolerances.h"
 #include "studies/presses/press_setup.h"
 
 namespace fingertip::studies::inline fits::inline setup {
@@ -143,6 +144,8 @@ std::shared_ptr<const FitInput> input_of(const FirstPress& first, const LoadedCo
   result.base = input.base;
   result.place = "next_" + name;
   result.with_lattice_error = input.with_lattice_error;
+  result.known_errors = input.known_errors;
+  added.known_errors = known_errors_of(input, added.press);
   const std::size_t rubber = material_parameters(input);
   result.options.free.assign(input.options.free.begin(),
                              input.options.free.begin() + std::ptrdiff_t(rubber));

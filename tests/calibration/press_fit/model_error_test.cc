@@ -122,6 +122,54 @@ TEST(ModelError, KnowsWhatFiniteStrainAdds) {
         << depth[std::size_t(i)];
 }
 
+/// Of a ball on the default finger, frictionless at small strain: continua of fingertip-fem to 0.1
+/// % with either value of each number.
+TEST(ModelError, KnowsWhatSizesDoToForces) {
+  PressSetup ball = with_samples(press(ContactMode::frictionless), {0.5e-3, 1e-3, 1.5e-3});
+  ball.protocol.obstacle = {.shape = meshes::ObstacleShape::sphere, .radius = 8e-3};
+  struct Number {
+    Described what;
+    double low, high, expected[3];
+  };
+  const Number numbers[] = {
+      {Described::tip_radius, 9.5e-3, 10.5e-3, {-0.04303, -0.07119, -0.08907}},
+      {Described::rod_radius, 4.75e-3, 5.25e-3, {0.04647, 0.06740, 0.08175}},
+      {Described::obstacle_radius, 7e-3, 9e-3, {0.08701, 0.09469, 0.09859}},
+      {Described::poissons_ratio, 0.41, 0.45, {0.04213, 0.04042, 0.03843}}};
+  for (const Number& each : numbers) {
+    const VectorXd change = change_between(ball, each.what, each.low, each.high);
+    for (Index i = 0; i < 3; ++i)
+      EXPECT_NEAR(
+          change(i), each.expected[i],
+          (each.what == Described::poissons_ratio ? 0.1 : 0.26) * std::abs(each.expected[i]))
+          << name(each.what) << " at sample " << i;
+  }
+}
+
+/// A finger whose radii are larger by the same share; the sleeve hardly matters.
+TEST(ModelError, ScaleIsAllSizesTogether) {
+  PressSetup ball = with_samples(press(ContactMode::frictionless), {1e-3, 2e-3});
+  ball.protocol.obstacle = {.shape = meshes::ObstacleShape::sphere, .radius = 8e-3};
+  const VectorXd all = change_between(ball, Described::scale, 0.99, 1.01);
+  VectorXd sum = VectorXd::Zero(2), sizes = sum;  // of opposite sign: their sum is small
+  for (const Described what : {Described::tip_radius, Described::rod_radius}) {
+    const double value = value_of(ball, what);
+    const VectorXd own = change_between(ball, what, 0.99 * value, 1.01 * value);
+    sum += own, sizes += own.cwiseAbs();
+  }
+  for (Index i = 0; i < 2; ++i) EXPECT_NEAR(all(i), sum(i), 0.06 * sizes(i)) << i;
+}
+
+TEST(ModelError, SizesBelongToWhatHasThem) {
+  PressSetup setup = press(ContactMode::frictionless);
+  EXPECT_TRUE(has(setup, Described::tip_radius));
+  EXPECT_FALSE(has(setup, Described::obstacle_radius));
+  setup.protocol.obstacle = {.shape = meshes::ObstacleShape::cylinder, .radius = 8e-3};
+  EXPECT_TRUE(has(setup, Described::obstacle_radius));
+  setup.geometry = meshes::Geometry::of_profile(setup.geometry.corners());
+  EXPECT_FALSE(has(setup, Described::rod_radius));
+}
+
 /// A covariance v vᵀ is a share of v that nobody knows: a further parameter with a prior.
 TEST(ModelError, IsAParameterNobodyAskedFor) {
   Curve data;

@@ -214,6 +214,7 @@ const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawA
     "calibration.branches", "calibration.stretch_range",
     // Of measured files; see ChangesWithItsDataAndHowTheyWereTaken.
     "calibration.rig", "calibration.machine", "calibration.candidates", "calibration.intervals",
+    "calibration.tolerances",
     // No search of moduli has random starts any more; those of laws see law_job_test.
     "calibration.starts", "calibration.seed",
     // Of plans; see IdentityOfAPlan. The other contact is another fit.
@@ -376,6 +377,7 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
         std::string("calibration.profile=[\"youngs_modulus\", \"shear_modulus\"]"),
         std::string("calibration.candidates=[\"repeat\"]"),
         std::string("calibration.intervals=profile"), std::string("press.contact=frictionless"),
+        std::string("calibration.tolerances={rod_radius = \"0.1 mm\"}"),
         std::string("geometry.tip_radius=1.1 cm")})
     EXPECT_TRUE(differs(experiment, matters)) << matters;
   write_text(folder / "travel.csv",

@@ -198,6 +198,24 @@ Table suspect_table(const Fit& fit) {
   return table;
 }
 
+/// What errors of sizes and place would make of the estimates.
+Table sensitivity_table(const Fit& fit) {
+  Table table{heads({"Were it larger", "by", "Parameter", "would be", ""})};
+  for (const auto& each : fit.file.sensitivities)
+    for (const auto& [parameter, change] : each.changes) {
+      const auto own =
+          std::ranges::find(fit.file.parameters, parameter, &calibration::ParameterEntry::name);
+      if (own == fit.file.parameters.end()) continue;
+      const std::string unit = each.name.starts_with("poissons_ratio") || each.name == "scale" ? "1"
+                               : each.name.starts_with("tilt") ? "rad"
+                                                               : "m";
+      table.rows.push_back({each.name, amount_of(each.step, unit, 3), parameter,
+                            fmt::format("{:+.2g} %", 100.0 * change / own->estimate),
+                            each.counts ? "in the intervals" : "not in the intervals"});
+    }
+  return table;
+}
+
 Chapter rig_chapter(const Fit& fit, const std::string& prefix) {
   constexpr double improbable = 1e-3;
   const auto& suspects = fit.file.lack_of_fit;
@@ -211,6 +229,7 @@ Chapter rig_chapter(const Fit& fit, const std::string& prefix) {
       suspects, [](const ScoreTest& each) { return each.probability < improbable; });
   chapter.tables["rig"] = rig_table(fit);
   chapter.tables["suspects"] = suspect_table(fit);
+  chapter.tables["sensitivities"] = sensitivity_table(fit);
   std::map<std::string, std::string> units;
   for (const auto& parameter : fit.file.parameters) units[parameter.name] = parameter.unit;
   chapter.tables["next"] = next_table(fit.file.next, units);

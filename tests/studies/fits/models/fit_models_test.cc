@@ -25,8 +25,14 @@ TEST(FitModels, EverythingOfACurveIsInItsKey) {
       {"quantities", [](FitCurve& c) { c.y_quantity = "stress [Pa]"; }},
       {"x", [](FitCurve& c) { c.x[1] = 3e-4; }},
       {"y", [](FitCurve& c) { c.y[1] = 0.3; }},
-      {"sigma", [](FitCurve& c) { c.sigma = {0.01, 0.01}; }},
-      {"time", [](FitCurve& c) { c.time = {0.0, 1.0}; }},
+      {"sigma",
+       [](FitCurve& c) {
+         c.sigma = {0.01, 0.01};
+       }},
+      {"time",
+       [](FitCurve& c) {
+         c.time = {0.0, 1.0};
+       }},
       {"travel", [](FitCurve& c) { c.is_travel = true; }},
       {"zero", [](FitCurve& c) { c.zero_is_sought = true; }},
       {"in time", [](FitCurve& c) { c.in_time = true; }},
@@ -39,9 +45,12 @@ TEST(FitModels, EverythingOfACurveIsInItsKey) {
       {"relaxation", [](FitCurve& c) { c.course.relaxation = 0.2; }},
       {"held", [](FitCurve& c) { c.course.held_time = {0.0}, c.course.held_y = {0.2}; }},
       {"way back", [](FitCurve& c) { c.course.back_x = {1e-4}, c.course.back_y = {0.1}; }},
-      {"lines", [](FitCurve& c) { c.rows.rows = {2, 3}; }},
+      {"lines",
+       [](FitCurve& c) {
+         c.rows.rows = {2, 3};
+       }},
       {"condition", [](FitCurve& c) { c.condition = "press.contact=stick"; }},
-      {"theory", [](FitCurve& c) { c.theory_error = {0.02}; }},
+      {"known errors", [](FitCurve& c) { c.known_errors = {{0.02}}; }},
       {"excess", [](FitCurve& c) { c.finite_excess = {0.04}; }}};
   for (const auto& [what, change] : changes) {
     FitInput other = input;
