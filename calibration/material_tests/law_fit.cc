@@ -97,11 +97,10 @@ void add_bulk_modulus(const std::vector<MaterialTest>& tests, CurveFitOptions& o
 
 double corrected_criterion(const CurveFit& fit, Index points, bool has_sigma) {
   const double n = double(points), k = double(fit.estimates.size()) + (has_sigma ? 0.0 : 1.0);
-  if (n <= k + 1.0) return infinite;
   const double squares = sum_of_squares(fit.residuals);
   const double misfit =
       has_sigma ? fit.chi_square.value_or(squares) : n * std::log(std::max(squares, 1e-300) / n);
-  return misfit + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+  return misfit + aicc_penalty(n, k);
 }
 
 /// Of a test whose zeros are taken off it may begin beyond rest.

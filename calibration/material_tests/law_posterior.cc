@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "calibration/material_tests/strain_grid.h"
@@ -180,11 +179,9 @@ double criterion_of(const Posterior& found, const std::vector<FreeParameter>& to
   const double n = double(values),
                k = 1.0 + double(std::ranges::count_if(
                              told, [](const FreeParameter&each) { return !each.prior; }));
-  if (n <= k + 1.0) return std::numeric_limits<double>::infinity();
   return -2.0 * found.errors.log_likelihood +
          heavy_tails(told, found.options.free, found.fit.estimates) +
-         2.0 * std::log(odd_one_in) * double(found.odd.size()) + 2.0 * k +
-         2.0 * k * (k + 1.0) / (n - k - 1.0);
+         2.0 * std::log(odd_one_in) * double(found.odd.size()) + aicc_penalty(n, k);
 }
 
 }  // namespace

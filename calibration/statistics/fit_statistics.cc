@@ -6,6 +6,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 
 #include "calibration/files/words.h"
 
@@ -170,6 +171,11 @@ Eigen::MatrixXd Sensitivity::covariance() const {
   for (Index i = 0; i < values_.size(); ++i)
     root.col(i) /= std::max({values_(i), 1e-15 * values_(0), 1e-150});
   return root * root.transpose();
+}
+
+double aicc_penalty(double n, double k) {
+  if (n <= k + 1.0) return std::numeric_limits<double>::infinity();
+  return 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
 }
 
 std::optional<Eigen::VectorXd> ratio_slopes(const CurveFit& fit) {

@@ -43,6 +43,12 @@ class Sensitivity {
   Eigen::MatrixXd directions_;
 };
 
+/// What AICc adds to -2 log-likelihood of `n` values by `k` parameters, the noise's deviation among
+/// them: 2k + 2k(k + 1)/(n - k - 1) (Hurvich & Tsai, Biometrika 76, 297, 1989), of linear least
+/// squares by how much likelier, in the mean, the fitted values are than new ones. Infinite where
+/// n <= k + 1.
+double aicc_penalty(double n, double k);
+
 /// A half width of the 95 % interval of Poisson's ratio beyond which E and G count as not told
 /// apart: half of +-1/4, which holds for every rubber (0 to 1/2) before anything is measured.
 inline constexpr double open_ratio = 0.125;

@@ -132,6 +132,17 @@ TEST(CurveFit, QuantilesMeetClosedForms) {
   EXPECT_NEAR(student_95(1000000), normal_95(), 1e-5);
 }
 
+/// Least squares with p slopes and n values: their squares over the true variance are chi-square of
+/// n - p, those of new values about the fit n + p in the mean, and 1/chi-square of f has the mean
+/// 1/(f - 2). With the deviation by n, -2 log-likelihood of new values exceeds that of the fitted
+/// ones by n (n + p)/(n - p - 2) - n.
+TEST(CurveFit, TheCriterionTakesOffWhatTheFitGains) {
+  for (const double n : {6.0, 12.0, 200.0})
+    for (const double p : {1.0, 3.0})
+      EXPECT_NEAR(aicc_penalty(n, p + 1.0), n * (n + p) / (n - p - 2.0) - n, 1e-11 * n);
+  EXPECT_EQ(aicc_penalty(4.0, 3.0), std::numeric_limits<double>::infinity());
+}
+
 /// Data that ask for nu = -0.16 where nu >= 0 is all a model knows: the least squares along E = 2G,
 /// by hand, and not wherever the search first met the wall.
 TEST(CurveFit, TheEndOfPoissonsRatioIsABound) {

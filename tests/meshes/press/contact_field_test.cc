@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,27 @@ TEST(ContactField, TractionsAreThoseOfTheForce) {
   EXPECT_NEAR((some.force() - Vector3(1e-3, -2e-3, -9e-3)).norm(), 0.0, 1e-17);
   EXPECT_NEAR(some.shear.dot(some.normal), 0.0, 1e-9 * some.normal_traction);
   EXPECT_GT(some.normal_traction, 0.0);
+}
+
+/// About the centre of pressure: wherever the field lies, and whatever pull in proportion to the
+/// pressures goes through that centre, the torque is that of what turns about it.
+TEST(ContactField, SpinIsAboutTheCentreOfPressure) {
+  const auto turned = [](const Vector3& away, double pull) {
+    std::vector<ContactPoint> field;
+    double torque = 0.0;
+    for (int i = 0; i < 8; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / 8, push = i % 2 == 0 ? 2e-3 : 1e-3;
+      const Vector3 arm(1e-3 * std::cos(angle), 1e-3 * std::sin(angle), 0.0);
+      const Vector3 rub = 0.3 * push * Vector3(-std::sin(angle), std::cos(angle), 0.0);
+      field.push_back(
+          point_at(away + arm, -Vector3::UnitZ(), rub + Vector3(pull * push, 0.0, -push)));
+      torque += arm.cross(rub).z();
+    }
+    EXPECT_NEAR(std::abs(meshes::spin_torque(field)), torque, 1e-9 * torque);
+    return meshes::spin_torque(field);
+  };
+  const double here = turned(Vector3(0.0, 0.0, 9e-3), 0.0);
+  EXPECT_NEAR(turned(Vector3(3e-3, -2e-3, 9e-3), 0.4), here, 1e-9 * std::abs(here));
 }
 
 /// Mirrored parts have no force across their planes, and what one image turns the other undoes.

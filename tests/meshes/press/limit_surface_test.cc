@@ -95,6 +95,19 @@ TEST(LimitSurface, EndsAreForceAndMoment) {
   }
 }
 
+/// Centres of rotation lie all the way out: between neighbours no part of the curve is left out.
+TEST(LimitSurface, PointsFollowTheWholeCurve) {
+  const Field field = round_contact(0.3, 2.0, hertz);
+  const LimitSurface surface = limit_surface(field);
+  for (std::size_t i = 1; i < surface.points.size(); ++i) {
+    const auto &at = surface.points[i], &before = surface.points[i - 1];
+    EXPECT_LT(std::hypot((at.force - before.force) / surface.normal_force,
+                         (at.moment - before.moment) / surface.greatest_moment),
+              0.12)
+        << at.away;
+  }
+}
+
 /// Greatest power: no other friction of the same pressures opposes a motion with more. The surface
 /// is convex, and a motion about its centre is its normal.
 TEST(LimitSurface, IsConvexWithMotionsAsNormals) {

@@ -345,6 +345,24 @@ TEST(TaxelReadings, BelowTheSurfaceAreThoseOfTheHalfSpace) {
   }
 }
 
+/// Below a load on the surface (Johnson, Contact Mechanics, equation 3.19) sigma_z is
+/// 3 P z³/(2 pi r⁵); over a disc of radius a under it the mean is P/(pi a²) (1 - (z/sqrt(a² +
+/// z²))³).
+TEST(TaxelReadings, BelowALoadAreMeansInClosedForm) {
+  ContactPoint load{.area = 1e-14};
+  load.normal = -Vector3::UnitZ();
+  load.set_force({0.0, 0.0, -1e-3});
+  const double a = 0.5e-3;
+  for (const double z : {0.25e-3, 0.5e-3, 1e-3, 2e-3}) {
+    const TaxelSkin skin{
+        .taxels = {{Vector3::Zero(), Vector3::UnitZ(), 0.0}}, .depth = z, .footprint = 2.0 * a};
+    const double mean = 1e-3 / (pi * a * a) * (1.0 - std::pow(z / std::hypot(a, z), 3));
+    EXPECT_NEAR(meshes::taxel_readings(std::vector{load}, skin).at(0).normal_stress, mean,
+                0.05 * mean)
+        << z;
+  }
+}
+
 /// A footprint, however wide beside the depth, feels the mean of what narrow ones feel.
 TEST(TaxelReadings, OfWideFootprintsAreMeansOfNarrowOnes) {
   const auto points = hertz(6, 0.4);

@@ -395,6 +395,19 @@ TEST_F(MeasuredData, OfALoopTheLoadingIsTakenAndTheAreaTold) {
   EXPECT_TRUE(says(file.notes[0], "the loop takes 39 %"));
 }
 
+/// The area is the play times the force that is gained from the first row to the last: of rows that
+/// begin under 1.5 N it is not the largest force that counts.
+TEST_F(MeasuredData, PlayIsOfTheForceThatIsGained) {
+  std::string text = "position [mm],force [N]\n";
+  const auto row = [&](double x, double told) {
+    text += std::to_string(told) + "," + std::to_string(1.5 + 0.5 * x) + "\n";
+  };
+  for (int i = 0; i <= 300; ++i) row(0.01 * i, 0.01 * i);
+  for (int i = 0; i < 10; ++i) row(3.0, 3.0 - 0.01 * (i + 1));
+  for (int i = 299; i >= 0; --i) row(0.01 * i, 0.01 * i - 0.1);
+  EXPECT_NEAR(read(text).curve.course.play, 1e-4, 4e-6);
+}
+
 /// An axis that loses 0.1 mm where it turns: the way back lies above the loading of F = x/2 to 3
 /// mm, by 0.1 mm · 1.5 N of 2.25 N mm. No rubber gives work.
 TEST_F(MeasuredData, AWayBackAboveTheLoadingIsPlay) {
