@@ -217,6 +217,28 @@ struct SensitivityEntry {
   meshes::Entries<double> changes;  ///< of the rubber's estimates, were it larger by the step
 };
 FINGERTIP_FIELDS(SensitivityEntry, name, value, step, counts, changes);
+/// An estimate in `unit`.
+struct EstimateEntry {
+  std::string name, unit;
+  double estimate = meshes::unknown;
+};
+FINGERTIP_FIELDS(EstimateEntry, name, unit, estimate);
+
+/// A press that was held back, beside what the fit foretells of it: lists have an entry per value.
+struct PredictedEntry {
+  std::string name, condition;
+  std::vector<EstimateEntry> own;                           ///< of its machine, from its own values
+  std::vector<double> x, measured, foretold, lower, upper;  ///< 95 %, of a value by itself
+  double rms_relative = meshes::unknown;  ///< of measured - foretold over that of measured
+  double within = meshes::unknown;        ///< share of values in their intervals
+  /// That of presses as foretold one strays so far from it anywhere.
+  double probability = meshes::unknown;
+  std::string failure;  ///< why nothing is foretold
+
+  bool is_within() const { return probability >= 0.05; }
+};
+FINGERTIP_FIELDS(PredictedEntry, name, condition, own, x, measured, foretold, lower, upper,
+                 rms_relative, within, probability, failure);
 
 /// What a further measurement would make of a parameter's 95 % interval.
 struct NarrowedEntry {
@@ -299,6 +321,7 @@ struct FitFile {
   std::vector<ScoreTest> lack_of_fit;
   std::optional<ErrorsEntry> errors;  ///< of measured presses
   std::vector<SensitivityEntry> sensitivities;
+  std::vector<PredictedEntry> predicted;
   std::vector<NextEntry> next;
   std::optional<ContactEntry> contact;
   std::vector<Repeats> repeats;
@@ -313,11 +336,11 @@ consteval auto fields_of(const FitFile*) {
              only_from_priors, degrees_of_freedom, chi_square, chi_square_probability, birge_ratio,
              model_error, converged, poissons_ratio_bound, residual_deviation, minima, x_quantity,
              y_quantity, curves, residuals, influence, profile, iterations, evaluations, wall_time,
-             validity, failed, rig, lack_of_fit, errors, sensitivities, next, contact, repeats,
-             statement)
+             validity, failed, rig, lack_of_fit, errors, sensitivities, predicted, next, contact,
+             repeats, statement)
       .newer(
           "rubber model_error converged poissons_ratio_bound failed rig lack_of_fit errors "
-          "sensitivities next contact repeats");
+          "sensitivities predicted next contact repeats");
 }
 
 /// What a fit to moduli, which has no curves, has in common with others.

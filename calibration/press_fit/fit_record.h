@@ -51,6 +51,7 @@ struct FitRecord {
   std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
   std::vector<SensitivityEntry> sensitivities;   ///< of the presses' sizes and place
   std::vector<ScoreTest> lack_of_fit;            ///< gravest first
+  std::vector<PredictedEntry> predicted;         ///< presses that were held back
   std::vector<MeasurementGain> next;             ///< further measurements, best first
   std::vector<bool> profiled;         ///< per parameter: its interval is the profile's; or empty
   std::vector<Repeats> repeats;       ///< groups of curves
@@ -96,6 +97,9 @@ double poissons_ratio_interval(const CurveFit& fit);
 /// a direction open, of E and G Poisson's ratio by more than open_ratio; and where the material is
 /// no rubber: rules of Material, E outside of meshes::implausible_modulus.
 std::vector<std::string> failed_tests(const FitRecord& record);
+
+/// "deep, held back, is foretold within 2.1 %, inside its 95 % interval, ...", a sentence or two.
+std::string prediction_words(const PredictedEntry& entry);
 
 /// calibration.json of the README, SI. Written atomically. Throws std::runtime_error when the file
 /// cannot be written.

@@ -316,6 +316,26 @@ std::string lack_of_fit(const FitRecord& record) {
 
 }  // namespace
 
+std::string prediction_words(const PredictedEntry& entry) {
+  if (!entry.failure.empty()) return entry.name + ", held back, is not foretold: " + entry.failure;
+  const auto last = std::size_t(std::ranges::max_element(entry.foretold) - entry.foretold.begin());
+  const double largest = entry.foretold[last];
+  std::string text =
+      entry.name + ", held back, is foretold within " + percent(entry.rms_relative) + " (" +
+      std::string(name_of_relative_rms) + "), " + (entry.is_within() ? "inside" : "outside") +
+      " its 95 % interval, which at its largest force is " +
+      quantity_text(entry.lower[last], "N", 3) + " to " + quantity_text(entry.upper[last], "N", 3) +
+      " about " + quantity_text(largest, "N", 3) + "; measured are " +
+      quantity_text(entry.measured[last], "N", 3);
+  if (!entry.is_within())
+    text += " (of presses as foretold " + percent(entry.probability) + " stray so far)";
+  text += ".";
+  for (const EstimateEntry& each : entry.own)
+    text += (&each == entry.own.data() ? " From its own values: " : "; ") + each.name + " = " +
+            quantity_text(each.estimate, each.unit, 3);
+  return entry.own.empty() ? text : text + ".";
+}
+
 std::string fit_statement(const FitRecord& record) {
   std::string text;
   for (const std::string& failed : failed_tests(record)) text += "Not accepted: " + failed + ". ";
@@ -323,6 +343,7 @@ std::string fit_statement(const FitRecord& record) {
           other_minima(record.fit) + collinearity(record) + assumptions(record) +
           sensitivities(record, true) + sensitivities(record, false) + structures(record) +
           relaxation_words(record) + loops(record) + lack_of_fit(record);
+  for (const PredictedEntry& each : record.predicted) text += " " + prediction_words(each);
   const std::string next =
       gain_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
   if (!next.empty()) text += " " + next;

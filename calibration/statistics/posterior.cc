@@ -26,19 +26,6 @@ std::vector<Curve> with_sigma(std::vector<Curve> curves, const VectorXd& sigma) 
   return curves;
 }
 
-/// Cauchy's distribution as the normal one of the same slope at the estimates; `open`: hardly any.
-void put_priors(std::vector<FreeParameter>& free, const std::vector<FreeParameter>& told,
-                const VectorXd& estimates, bool open) {
-  constexpr double far = 50.0;
-  for (std::size_t j = 0; j < free.size(); ++j) {
-    const std::optional<Prior>& own = told[j].prior;
-    if (!own || !own->heavy_tails) continue;
-    const double widths = open ? far : (estimates(Index(j)) - own->mean) / own->deviation;
-    free[j].prior->deviation =
-        own->deviation * std::sqrt(0.5 * (1.0 + std::max(1.0, widths * widths)));
-  }
-}
-
 /// Values that are no noise, `left` over the noise being what is missed; of so many that they are
 /// no exceptions none is.
 std::vector<OddValue> odd_of(const std::vector<Curve>& curves, const VectorXd& left) {
@@ -55,6 +42,18 @@ std::vector<OddValue> odd_of(const std::vector<Curve>& curves, const VectorXd& l
 }
 
 }  // namespace
+
+void put_normal_priors(std::vector<FreeParameter>& free, const std::vector<FreeParameter>& told,
+                       const VectorXd& estimates, bool open) {
+  constexpr double far = 50.0;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const std::optional<Prior>& own = told[j].prior;
+    if (!own || !own->heavy_tails) continue;
+    const double widths = open ? far : (estimates(Index(j)) - own->mean) / own->deviation;
+    free[j].prior->deviation =
+        own->deviation * std::sqrt(0.5 * (1.0 + std::max(1.0, widths * widths)));
+  }
+}
 
 LinearisedFit linearised(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
                          const std::vector<FreeParameter>& free, const VectorXd& estimates) {
@@ -80,8 +79,8 @@ Posterior posterior_fit(const PosteriorInput& input, const CurveFit& first) {
   Posterior result{input.curves, input.options, first, {}, {}};
   VectorXd deviations = plain;
   for (int round = 0; round < rounds; ++round) {
-    put_priors(result.options.free, input.options.free, result.fit.estimates,
-               input.begins_open && round == 0);
+    put_normal_priors(result.options.free, input.options.free, result.fit.estimates,
+                      input.begins_open && round == 0);
     LinearisedFit at =
         linearised(input.curves, input.models, result.options.free, result.fit.estimates);
     const VectorXd computed = values - at.residuals;

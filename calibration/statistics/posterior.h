@@ -50,9 +50,13 @@ struct Posterior {
 LinearisedFit linearised(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
                          const std::vector<FreeParameter>& free, const Eigen::VectorXd& estimates);
 
+/// In `free` a prior with heavy tails, as `told`, becomes the normal one that has the same slope at
+/// the estimates; `open`: one that hardly holds.
+void put_normal_priors(std::vector<FreeParameter>& free, const std::vector<FreeParameter>& told,
+                       const Eigen::VectorXd& estimates, bool open = false);
+
 /// From where `first` ended, again and again, twelve times at most, until estimates and odd values
-/// stay; errors are those of value_errors. A
-/// prior with heavy tails is the normal one that has the same slope there. Values 4.5 deviations
+/// stay; errors are those of value_errors, priors those of put_normal_priors. Values 4.5 deviations
 /// off, everything else taken out, are odd unless they are more than one in 25; their noise becomes
 /// what they are off by. Throws as fit_curves and value_errors do.
 Posterior posterior_fit(const PosteriorInput& input, const CurveFit& first);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include "calibration/statistics/fit_statistics.h"
 #include "meshes/base/errors.h"
@@ -89,9 +90,56 @@ class MixedModel {
     MatrixXd covariance;  ///< of the parameters alone; empty unless asked for
   };
   Point at(double noise, const std::vector<double>& sizes, bool all = false) const {
-    MatrixXd matrix;
+    const Equations found = equations(noise, sizes);
+    Point point;
+    point.expected = found.factor.solve(found.right);
+    point.density = -0.5 * (found.determinant + found.squares - found.right.dot(point.expected));
+    if (all)
+      point.covariance = found.factor.solve(MatrixXd::Identity(found.right.size(), parameters_))
+                             .topRows(parameters_);
+    return point;
+  }
+
+  /// So many draws of the parameters less their estimates, and of the components' numbers, from
+  /// what the values leave of them at one choice of sizes: a column each.
+  MatrixXd draws(double noise, const std::vector<double>& sizes, Index count,
+                 std::mt19937_64& random) const {
+    const Equations found = equations(noise, sizes);
+    std::normal_distribution<double> normal;
+    MatrixXd drawn =
+        MatrixXd::NullaryExpr(found.right.size(), count, [&] { return normal(random); });
+    // P A Pᵀ = L D Lᵀ: x = Pᵀ L⁻ᵀ D^(-1/2) e has the covariance A⁻¹.
+    drawn = found.factor.vectorD().cwiseAbs().cwiseSqrt().cwiseInverse().asDiagonal() * drawn;
+    found.factor.matrixU().solveInPlace(drawn);
+    drawn = found.factor.transpositionsP().transpose() * drawn;
+    drawn.colwise() += found.factor.solve(found.right);
+    return units_.asDiagonal() * drawn;
+  }
+
+  /// The logarithm of the likelihood with parameters without a prior at their best, all else
+  /// integrated out.
+  double log_likelihood(double noise, const std::vector<double>& sizes) const {
+    const Point point = at(noise, sizes, true);
+    const MatrixXd open = point.covariance(without_prior_, without_prior_);
+    double unit_logs = 0.0;
+    for (const Index j : without_prior_) unit_logs += std::log(units_(j));
+    return point.density - 0.5 * open.ldlt().vectorD().array().abs().log().sum() - unit_logs;
+  }
+
+  Index parameters() const { return parameters_; }
+  const VectorXd& units() const { return units_; }
+
+ private:
+  /// The equations at one choice of sizes, and what its density has besides.
+  struct Equations {
+    Eigen::LDLT<MatrixXd> factor;
     VectorXd right;
-    double determinant = unit_logs_, squares = shift_.dot(precision_.cwiseProduct(shift_));
+    double determinant = 0.0, squares = 0.0;
+  };
+  Equations equations(double noise, const std::vector<double>& sizes) const {
+    Equations found{{}, {}, unit_logs_, shift_.dot(precision_.cwiseProduct(shift_))};
+    auto& [factor, right, determinant, squares] = found;
+    MatrixXd matrix;
     if (alike_) {
       const double weight = 1.0 / (noise * noise);
       matrix = weight * gram_;
@@ -117,31 +165,11 @@ class MixedModel {
     // infinite one.
     matrix.diagonal().head(parameters_).array() *= 1.0 + 1e-10;
     matrix.diagonal().head(parameters_).array() += 1e-12 / (noise * noise);
-    const Eigen::LDLT<MatrixXd> factor(matrix);
-    Point point;
-    point.expected = factor.solve(right);
+    factor.compute(matrix);
     determinant += factor.vectorD().array().abs().log().sum();
-    point.density = -0.5 * (determinant + squares - right.dot(point.expected));
-    if (all)
-      point.covariance =
-          factor.solve(MatrixXd::Identity(matrix.rows(), parameters_)).topRows(parameters_);
-    return point;
+    return found;
   }
 
-  /// The logarithm of the likelihood with parameters without a prior at their best, all else
-  /// integrated out.
-  double log_likelihood(double noise, const std::vector<double>& sizes) const {
-    const Point point = at(noise, sizes, true);
-    const MatrixXd open = point.covariance(without_prior_, without_prior_);
-    double unit_logs = 0.0;
-    for (const Index j : without_prior_) unit_logs += std::log(units_(j));
-    return point.density - 0.5 * open.ldlt().vectorD().array().abs().log().sum() - unit_logs;
-  }
-
-  Index parameters() const { return parameters_; }
-  const VectorXd& units() const { return units_; }
-
- private:
   Index parameters_;
   MatrixXd columns_, gram_;
   VectorXd residuals_, shared_, units_, precision_, shift_;
@@ -198,6 +226,7 @@ class Grid {
        const LinearisedFit& fit, double noise)
       : model_(model),
         components_(components),
+        unknown_(std::ranges::count(components, false, &ErrorComponent::known)),
         told_(fit.noise_told),
         least_(std::log(std::max(fit.least_noise, 1e-300))),
         centre_(std::log(noise)) {
@@ -228,8 +257,12 @@ class Grid {
   }
   void choose(std::size_t k, std::vector<double>& sizes) {
     if (k == sizes.size()) return add(sizes);
+    if (components_[k].known) {
+      sizes[k] = 1.0;
+      return choose(k + 1, sizes);
+    }
     const double scale = components_[k].scale;
-    const double step = sizes.size() > 1 ? coarse_step : size_step;
+    const double step = unknown_ > 1 ? coarse_step : size_step;
     for (double ln = std::log(least_size); ln <= std::log(most_size); ln += step) {
       sizes[k] = scale * std::exp(ln);
       choose(k + 1, sizes);
@@ -262,6 +295,7 @@ class Grid {
     best_ = std::max(best_, there);
     double prior = 0.0;
     for (std::size_t k = 0; k < sizes.size(); ++k) {
+      if (components_[k].known) continue;
       prior += size_prior(sizes[k], components_[k].scale);
       if (sizes[k] < 1.01 * least_size * components_[k].scale)
         best_without_[k] = std::max(best_without_[k], there);
@@ -279,6 +313,7 @@ class Grid {
 
   const MixedModel& model_;
   const std::vector<ErrorComponent>& components_;
+  std::ptrdiff_t unknown_;  ///< components whose size is
   bool told_;
   double least_, centre_;
   std::vector<Choice> choices_;
@@ -303,16 +338,20 @@ void check(const LinearisedFit& fit, const std::vector<ErrorComponent>& componen
                                 "give them for the same values and parameters"});
 }
 
+/// The search for the noise begins where the residuals are.
+double rough_noise(const LinearisedFit& fit) {
+  if (fit.noise_told) return 1.0;
+  const double rough = std::sqrt(fit.residuals.cwiseQuotient(fit.deviations).squaredNorm() /
+                                 double(fit.residuals.size()));
+  return std::max({rough, fit.least_noise, 1e-9});
+}
+
 }  // namespace
 
 ValueErrors value_errors(const LinearisedFit& fit, const std::vector<ErrorComponent>& components) {
   check(fit, components);
   const MixedModel model(fit, components);
-  // The search for the noise begins where the residuals are.
-  const double rough = std::sqrt(fit.residuals.cwiseQuotient(fit.deviations).squaredNorm() /
-                                 double(fit.residuals.size()));
-  const Grid grid(model, components, fit,
-                  fit.noise_told ? 1.0 : std::max({rough, fit.least_noise, 1e-9}));
+  const Grid grid(model, components, fit, rough_noise(fit));
   const Index parameters = model.parameters();
   ValueErrors result;
   result.log_evidence = grid.log_evidence();
@@ -376,6 +415,35 @@ ValueErrors value_errors(const LinearisedFit& fit, const std::vector<ErrorCompon
         fit.estimates(j) + units.diagonal()(j) * mixture_point(means, deviations, weights, 0.975);
   }
   return result;
+}
+
+MatrixXd further_values(const LinearisedFit& fit, const std::vector<ErrorComponent>& components,
+                        const FurtherValues& further, Index draws) {
+  check(fit, components);
+  const MixedModel model(fit, components);
+  const Grid grid(model, components, fit, rough_noise(fit));
+  const Index values = further.jacobian.rows();
+  MatrixXd slopes = further.jacobian, drawn(values, draws);
+  for (const MatrixXd& each : further.columns) {
+    slopes.conservativeResize(Eigen::NoChange, slopes.cols() + each.cols());
+    slopes.rightCols(each.cols()) = each;
+  }
+  // Every choice of sizes as often as it weighs.
+  std::mt19937_64 random;
+  std::normal_distribution<double> normal;
+  double sum = 0.0;
+  Index done = 0;
+  for (const Choice& each : grid.choices()) {
+    sum += each.density;
+    const Index count = std::min(draws, Index(std::llround(sum * double(draws)))) - done;
+    if (count <= 0) continue;
+    drawn.middleCols(done, count) = slopes * model.draws(each.noise, each.sizes, count, random);
+    for (Index j = done; j < done + count; ++j)
+      for (Index i = 0; i < values; ++i)
+        drawn(i, j) += each.noise * further.deviations(i) * normal(random);
+    done += count;
+  }
+  return drawn.leftCols(done);
 }
 
 MatrixXd smooth_columns(const VectorXd& u, double length) {

@@ -14,6 +14,7 @@ namespace fingertip::calibration::inline statistics {
 struct ErrorComponent {
   Eigen::MatrixXd columns;  ///< a row per value [y]
   double scale = 0.01;      ///< of the deviation's prior, > 0
+  bool known = false;       ///< the deviation is 1
 };
 
 /// A fit linearised at its estimates, and what is known of its values' errors.
@@ -54,6 +55,20 @@ struct ValueErrors {
 /// a grid, so that few values or repeats widen the intervals as they ought to. Bounds do not count.
 /// Throws InvalidInput for sizes that do not fit and deviations that are not positive.
 ValueErrors value_errors(const LinearisedFit& fit, const std::vector<ErrorComponent>& components);
+
+/// Values that a fit has not seen, linearised at its estimates.
+struct FurtherValues {
+  Eigen::MatrixXd jacobian;              ///< by the parameters of the fit [y per unit]
+  std::vector<Eigen::MatrixXd> columns;  ///< those of the components, by whose numbers they are off
+  Eigen::VectorXd deviations;            ///< of their noise, as that of the fit's values
+};
+
+/// So many draws of what further values are, less those computed at the estimates: of parameters
+/// and components as the fit leaves them, of their sizes and of noise, always the same. A row per
+/// value, a column per draw. Throws as value_errors does.
+Eigen::MatrixXd further_values(const LinearisedFit& fit,
+                               const std::vector<ErrorComponent>& components,
+                               const FurtherValues& further, Eigen::Index draws);
 
 /// Columns of a smooth function of `u`, of deviation 1 everywhere and correlated over about
 /// `length` of u: a row per entry of u, in [0, 1].

@@ -241,6 +241,17 @@ RunMeasure of_contact(const char* name, std::function<double(const ContactErrors
       name, {"drawn"}, [take](const Evidence& run) { return std::abs(take(run.result.contact)); }};
 }
 
+/// The largest of presses that a fit was not shown; none where one is not foretold.
+RunMeasure of_held_back(const char* name,
+                        std::function<double(const calibration::PredictedEntry&)> take) {
+  return {name, {"fit"}, [take](const Evidence& run) {
+            std::vector<double> values;
+            for (const calibration::PredictedEntry& press : run.result.found.predicted)
+              values.push_back(take(press));
+            return largest(values);
+          }};
+}
+
 std::vector<RunMeasure> all_measures() {
   using R = const Evidence&;
   using lattice::TraceRow;
@@ -314,6 +325,13 @@ std::vector<RunMeasure> all_measures() {
       {"open_directions", {"fit"}, open_directions},
       {"told_apart", {"fit"}, told_apart},
       {"fit_probability", {"fit"}, [](R run) { return run.result.found.chi_square_probability; }},
+      of_held_back("predicted_error",
+                   [](const calibration::PredictedEntry& press) { return press.rms_relative; }),
+      of_held_back("outside",
+                   [](const calibration::PredictedEntry& press) {
+                     return press.failure.empty() ? (press.is_within() ? 0.0 : 1.0)
+                                                  : meshes::unknown;
+                   }),
       suspects("rig_unnamed", 1, {"touch_offset", "compliance"}),
       suspects("strain_unnamed", told_suspects, {"finite strain"}),
       suspects("relaxation_unnamed", told_suspects, {"relaxation"}),

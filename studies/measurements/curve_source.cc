@@ -30,7 +30,7 @@ constexpr KnownColumn known_columns[] = {{"position", "m", "mm"},
 
 const std::set<string_view> shared_press_keys = {
     "condition", "block",       "separator", "decimal", "skip",  "header", "rows",
-    "force",     "indentation", "position",  "time",    "sigma", "finger"};
+    "force",     "indentation", "position",  "time",    "sigma", "finger", "use"};
 
 void add_press(const TestTable& press, std::vector<CurveSource>& sources) {
   CurveSource source;
@@ -39,6 +39,10 @@ void add_press(const TestTable& press, std::vector<CurveSource>& sources) {
   source.block = std::size_t(press.whole("block", 0, 1, 1000000));
   source.condition = press.text("condition").value_or("");
   source.rigid = press.word<bool>("finger", {{"soft", false}, {"rigid", true}}, false);
+  source.predicted = press.word<bool>("use", {{"fit", false}, {"predict", true}}, false);
+  if (source.rigid && source.predicted)
+    press.refuse("use", "predict", "a rigid blank tells the machine, and no fit foretells it",
+                 "leave use out");
   for (const KnownColumn& known : known_columns)
     if (known.quantity == string_view("sigma") && press.is_text(known.quantity))
       source.sigma = *press.quantity(known.quantity, known.unit, "0.01 N");

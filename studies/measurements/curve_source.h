@@ -23,6 +23,7 @@ struct CurveSource {
   std::size_t block = 0;       ///< the table of the file that counts, from 1; 0: each of them
   std::string condition = {};  ///< settings of the press, "press.contact=stick; ..."
   bool rigid = false;          ///< a blank in place of the finger, which tells the machine alone
+  bool predicted = false;      ///< held back from the fit, which foretells it
   double sigma = 0.0;          ///< of every row [N], where no column tells it; 0: unknown
 
   bool operator==(const CurveSource&) const = default;
@@ -36,7 +37,7 @@ struct CurveSource {
 ///             skip (lines), header (true, false), rows ([first, last]),
 ///             position or indentation, force = {column, unit, scale, sign, zero},
 ///             time, sigma = {column, unit, scale, sign}, or sigma = "0.01 N", of every row;
-///             finger ("soft", "rigid": a blank in its place)
+///             finger ("soft", "rigid": a blank in its place), use ("fit" or "predict")
 ///
 /// Columns: DescribedColumn. Separator and decimals are found, units read from the file where they
 /// are not said. Paths are relative to the TOML

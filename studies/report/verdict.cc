@@ -209,7 +209,7 @@ std::string verdict_text(const std::filesystem::path& run_folder) {
     text = tables_text(materials_chapter(read_materials(run, reader)), {"materials"});
   } else if (!calibration.empty() && run.models.empty()) {
     for (const Chapter& chapter : fit_chapters(calibration))
-      text += tables_text(chapter, {"parameters", "next"});
+      text += tables_text(chapter, {"parameters", "predicted", "next"});
     text += tables_text(transfer_chapter(calibration), {"transfer"});
   } else if (!run.moduli_fit.empty()) {
     text = tables_text(elasticity_chapter(run), {"achieved"});

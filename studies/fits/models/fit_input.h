@@ -62,6 +62,9 @@ struct FitCurve : calibration::Curve {
   /// `continuum` then are Travel::depths.
   std::optional<Travel> travel;
   RowsOfValues rows;  ///< none where these are not measured
+  /// Of a press that is held back: the curve of the fit whose further rows it is, with its touch
+  /// and its zero.
+  std::optional<std::size_t> continues;
   /// By FitInput::known_errors, how much each changes the force at every sample of its press,
   /// relative. Empty: not at all.
   std::vector<std::vector<double>> known_errors;
@@ -105,6 +108,9 @@ struct FitInput {
   bool profile_intervals = false;                            ///< else those of the covariance
   std::string provenance, program;                           ///< for material.toml
   std::string place = "continuum";    ///< stem of the folders of the continua that answer
+  /// The same fit with the presses that are held back: their curves stand behind those that are
+  /// fitted, and so do parameters that only they have. None: there are none.
+  std::shared_ptr<const FitInput> with_held_back;
   std::vector<Candidate> candidates;  ///< of presses; in the order of calibration.candidates
 };
 

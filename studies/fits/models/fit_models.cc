@@ -204,6 +204,7 @@ ordered_json curve_inputs(const FitInput& input, std::size_t i) {
                          {"rows", curve.rows.rows},
                          {"known_errors", curve.known_errors},
                          {"finite_excess", curve.finite_excess}};
+  if (curve.continues) inputs["continues"] = *curve.continues;
   if (has_presses(input)) inputs["press"] = inputs_of(curve.press);
   for (const calibration::FitBranch& branch : input.branches)
     for (const calibration::FitQuantity& each : {branch.share, branch.time})
@@ -278,11 +279,12 @@ class FitModels::Press final : public ForwardModel {
 };
 
 FitModels::FitModels(const FitInput& input, const fs::path& folder, const JobContext& context,
-                     const std::function<bool()>& go_on) {
+                     const std::function<bool()>& go_on, const FitModels* first) {
   fs::create_directories(folder / "evaluations");
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const FitCurve& curve = input.curves[i];
     Answer answer;
+    if (first != nullptr && i < first->answers_.size()) answer.press = first->answers_[i].press;
     for (std::size_t j = 0; j < i && !answer.press; ++j)
       if (same_lattice(input.curves[j], curve)) answer.press = answers_[j].press;
     if (!answer.press) answer.press = std::make_shared<Press>(input, i, folder, context, go_on);

@@ -22,8 +22,9 @@ nlohmann::ordered_json curve_inputs(const FitInput& input, std::size_t i);
 class FitModels {
  public:
   /// Jobs are carried out by `context`; `go_on` is asked while a model computes.
+  /// The first presses are those of `first`, where it is given.
   FitModels(const FitInput& input, const std::filesystem::path& folder, const JobContext& context,
-            const std::function<bool()>& go_on);
+            const std::function<bool()>& go_on, const FitModels* first = nullptr);
 
   /// What answers for every curve.
   std::vector<calibration::ForwardModel*> addresses() const;

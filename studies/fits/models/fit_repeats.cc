@@ -53,6 +53,12 @@ std::vector<std::vector<std::size_t>> alike(const FitInput& input) {
 }
 
 void share_depths(FitInput& input) {
+  // Further rows of a press begin under load: where it was touched those before tell.
+  for (FitCurve& curve : input.curves)
+    if (curve.continues) {
+      const FitCurve& before = input.curves[*curve.continues];
+      curve.travel = continued(*std::move(curve.travel), curve, *before.travel, before);
+    }
   for (const auto& curves : alike(input)) {
     const auto reach = [&](std::size_t i) { return input.curves[i].travel->depths.back(); };
     const std::vector<double> depths =
@@ -125,6 +131,18 @@ ForceAndDepth presses_at(const FitInput& input, const VectorXd& estimates,
   return at;
 }
 
+VectorXd told_deviations(const FitInput& input, double deviation) {
+  const std::vector<Curve> curves = curves_of(input);
+  const VectorXd values = calibration::all_values(curves);
+  VectorXd deviations =
+      VectorXd::Constant(values.size(), std::max(deviation, 1e-9 * values.cwiseAbs().maxCoeff()));
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    if (const auto& sigma = curves[i].sigma; !sigma.empty())
+      deviations.segment(first_value(curves, i), Index(sigma.size())) =
+          VectorXd::Map(sigma.data(), Index(sigma.size()));
+  return deviations;
+}
+
 MatrixXd misfit_columns(const VectorXd& force, const VectorXd& depth, double deepest) {
   const MatrixXd smooth = calibration::smooth_columns(depth / deepest, smooth_length);
   const VectorXd touched = near_touch * force.maxCoeff() * force.cwiseSign();
@@ -135,25 +153,33 @@ MatrixXd misfit_columns(const VectorXd& force, const VectorXd& depth, double dee
 
 namespace {
 
-using Models = std::vector<calibration::ForwardModel*>;
-
 /// Priors of the deviations of that share and of factors between repeats.
 constexpr double misfit_scale = 0.01, scatter_scale = 0.05;
 
-/// What the model may miss smoothly, shared by presses alike, and a factor of every repeat.
+/// How many of a group's curves are fitted.
+std::size_t fitted_of(const std::vector<std::size_t>& group, std::size_t fitted) {
+  return std::size_t(std::ranges::count_if(group, [&](std::size_t i) { return i < fitted; }));
+}
+
+}  // namespace
+
 std::vector<calibration::ErrorComponent> components_of(const FitInput& input,
-                                                       const ForceAndDepth& at) {
+                                                       const ForceAndDepth& at,
+                                                       std::size_t fitted) {
   const std::vector<Curve> curves = curves_of(input);
   calibration::ErrorComponent missed{{}, misfit_scale}, factors{{}, scatter_scale};
   const auto append = [&](MatrixXd& all, const MatrixXd& columns) {
     all.conservativeResize(at.force.size(), all.cols() + columns.cols());
     all.rightCols(columns.cols()) = columns;
   };
-  for (const auto& group : sharing(input)) {
+  const auto rows_of = [&](std::size_t i) {
+    return Eigen::seqN(first_value(curves, i), Index(curves[i].y.size()));
+  };
+  const auto groups = sharing(input);
+  const bool has_repeats =
+      std::ranges::any_of(groups, [&](const auto& group) { return fitted_of(group, fitted) > 1; });
+  for (const auto& group : groups) {
     double deepest = 0.0;
-    const auto rows_of = [&](std::size_t i) {
-      return Eigen::seqN(first_value(curves, i), Index(curves[i].y.size()));
-    };
     for (const std::size_t i : group) deepest = std::max(deepest, at.depth(rows_of(i)).maxCoeff());
     MatrixXd columns;
     for (const std::size_t i : group) {
@@ -161,9 +187,11 @@ std::vector<calibration::ErrorComponent> components_of(const FitInput& input,
       const MatrixXd own = misfit_columns(force, at.depth(rows_of(i)), deepest);
       if (columns.size() == 0) columns = MatrixXd::Zero(at.force.size(), own.cols());
       columns(rows_of(i), Eigen::all) = own;
-      if (group.size() < 2) continue;
+      if (fitted_of(group, fitted) < 2 && (i < fitted || !has_repeats)) continue;
+      if (input.curves[i].continues) continue;
       VectorXd factor = VectorXd::Zero(at.force.size());
-      factor(rows_of(i)) = force;
+      for (const std::size_t k : group)
+        if (k == i || input.curves[k].continues == i) factor(rows_of(k)) = at.force(rows_of(k));
       append(factors.columns, factor);
     }
     append(missed.columns, columns);
@@ -172,6 +200,10 @@ std::vector<calibration::ErrorComponent> components_of(const FitInput& input,
   if (factors.columns.cols() > 0) components.push_back(factors);
   return components;
 }
+
+namespace {
+
+using Models = std::vector<calibration::ForwardModel*>;
 
 /// Of all values, per curve.
 std::vector<VectorXd> by_curve(const FitInput& input, const VectorXd& all) {
@@ -192,7 +224,8 @@ calibration::Posterior weighed(const FitInput& input, const Models& models, cons
                                      .components =
                                          [&](const VectorXd& estimates, const VectorXd& computed) {
                                            return components_of(
-                                               input, presses_at(input, estimates, computed));
+                                               input, presses_at(input, estimates, computed),
+                                               input.curves.size());
                                          }},
                                     first);
 }
@@ -206,19 +239,6 @@ CurveFit by_noise_alone(const FitInput& input, const Models& models,
       fit.whitening *
       calibration::linearised(curves_of(input), models, input.options.free, fit.estimates).jacobian;
   return fit;
-}
-
-/// What files tell of their values' noise, else as large for all.
-VectorXd told_deviations(const FitInput& input, const CurveFit& fit) {
-  const std::vector<Curve> curves = curves_of(input);
-  const VectorXd values = calibration::all_values(curves);
-  VectorXd deviations = VectorXd::Constant(
-      values.size(), std::max(fit.residual_deviation, 1e-9 * values.cwiseAbs().maxCoeff()));
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    if (const auto& sigma = curves[i].sigma; !sigma.empty())
-      deviations.segment(first_value(curves, i), Index(sigma.size())) =
-          VectorXd::Map(sigma.data(), Index(sigma.size()));
-  return deviations;
 }
 
 /// Chi-square by what the files tell of noise and is known of the models, as of any fit.
@@ -282,7 +302,7 @@ void add_errors_and_intervals(const FitInput& input, const Models& models,
   record.options = input.options;
   if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return;
   const bool is_told = !input.curves.front().sigma.empty();
-  const VectorXd told = told_deviations(input, record.fit);
+  const VectorXd told = told_deviations(input, record.fit.residual_deviation);
   const calibration::Posterior by = weighed(input, models, record.fit, told, is_told);
   record.fit = by.fit;
   record.odd = by.odd;

@@ -6,6 +6,7 @@
 
 #include "calibration/press_fit/fit_record.h"
 #include "calibration/press_fit/repeats.h"
+#include "calibration/statistics/value_errors.h"
 #include "studies/fits/models/fit_input.h"
 
 namespace fingertip::studies::inline fits::inline models {
@@ -32,6 +33,15 @@ struct ForceAndDepth {
 /// `computed` by the models at `estimates`.
 ForceAndDepth presses_at(const FitInput& input, const Eigen::VectorXd& estimates,
                          const Eigen::VectorXd& computed);
+
+/// What files tell of the noise of the values of all curves, else `deviation` for each.
+Eigen::VectorXd told_deviations(const FitInput& input, double deviation);
+
+/// What the model may miss smoothly, shared by presses alike, and a factor of every repeat. Curves
+/// from `fitted` on are held back: they have a factor where repeats among those before tell its
+/// size.
+std::vector<calibration::ErrorComponent> components_of(const FitInput& input,
+                                                       const ForceAndDepth& at, std::size_t fitted);
 
 /// Presses that share what their model misses, those that differ by nothing but their rows, and
 /// every other curve by itself.

@@ -88,7 +88,11 @@ void free_rigs(FitInput& input) {
     Travel& travel = *curve.travel;
     const RigSettings& rig = travel.settings;
     const std::string of = input.curves.size() > 1 ? curve.name : "";
-    if (rig.touch_offset.fitted)
+    const Travel* before = curve.continues ? &*input.curves[*curve.continues].travel : nullptr;
+    if (before != nullptr) {
+      travel.rig.touch_offset = before->rig.touch_offset;
+      travel.rig.force_offset = before->rig.force_offset;
+    } else if (rig.touch_offset.fitted)
       travel.rig.touch_offset =
           append(input, free_of(touch_offset, rig.touch_offset,
                                 {.start = travel.touch,
@@ -107,7 +111,7 @@ void free_rigs(FitInput& input) {
                                                             machines > 1 ? travel.machine : ""));
       travel.rig.compliance = compliances[travel.machine];
     }
-    if (rig.force_offset.fitted)
+    if (rig.force_offset.fitted && before == nullptr)
       travel.rig.force_offset = append(
           input,
           free_of(force_offset, rig.force_offset,

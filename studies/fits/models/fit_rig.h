@@ -13,8 +13,9 @@ namespace fingertip::studies::inline fits::inline models {
 inline constexpr double highest_compliance = 0.9;
 
 /// Appends what of the rigs is fitted to the free parameters: an offset of touch, one of force and
-/// a drift per curve, a compliance per machine, which one of its files may tell for all. Throws
-/// InvalidInput where files of one machine say different compliances.
+/// a drift per curve, a compliance per machine, which one of its files may tell for all. Further
+/// rows of a curve have its offsets. Throws InvalidInput where files of one machine say different
+/// compliances.
 void free_rigs(FitInput& input);
 
 /// Of the fit's free parameters those that the presses themselves depend on; they stand first.

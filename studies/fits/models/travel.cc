@@ -28,6 +28,11 @@ constexpr double reserve = 0.05;
 /// that drifts from the first row to the last.
 constexpr double usual_zero = 0.001, usual_drift = 0.001;
 
+std::vector<double> depths_of(const Travel& travel) {
+  return calibration::depths_for_rig(
+      travel.settings.touch_offset.fitted ? (1.0 + reserve) * travel.reach : travel.reach);
+}
+
 }  // namespace
 
 std::vector<CurveSource> blanks_of(const RigSettings& rig, std::vector<CurveSource> others) {
@@ -116,9 +121,20 @@ Travel travel_of(const Curve& curve, const CalibrationSettings& settings) {
              to_text(travel.force) + " N and does not press",
          "correct touch_offset and compliance, or the column position, which grows as the finger "
          "is pressed"});
-  const double early = rig.touch_offset.fitted ? (1.0 + reserve) * travel.reach : travel.reach;
-  travel.depths = calibration::depths_for_rig(early);
+  travel.depths = depths_of(travel);
   travel.rig = rig_of(rig);
+  return travel;
+}
+
+Travel continued(Travel travel, const Curve& curve, const Travel& before,
+                 const Curve& rows_before) {
+  const double zero = std::ranges::max(rows_before.y) - before.force;
+  const RigSetting& compliance = travel.settings.compliance;
+  travel.touch = before.touch;
+  travel.force = std::ranges::max(curve.y) - zero;
+  travel.reach = std::ranges::max(curve.x) - travel.touch -
+                 (compliance.fitted ? 0.0 : compliance.value) * travel.force;
+  travel.depths = depths_of(travel);
   return travel;
 }
 

@@ -44,4 +44,9 @@ RigSettings with_blank(RigSettings rig, const std::vector<CurveSource>& blanks,
 /// without times.
 Travel travel_of(const calibration::Curve& curve, const CalibrationSettings& settings);
 
+/// The travel of further rows of a press, which begin under load: its touch and its zero are those
+/// that the rows before tell.
+Travel continued(Travel travel, const calibration::Curve& curve, const Travel& before,
+                 const calibration::Curve& rows_before);
+
 }  // namespace fingertip::studies::inline fits::inline models

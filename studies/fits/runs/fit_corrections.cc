@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "calibration/files/words.h"
+#include "calibration/press_fit/fit_record.h"
 #include "meshes/tables/interpolation.h"
 #include "studies/fits/setup/configured_fit.h"
 
@@ -80,6 +81,22 @@ std::string contact_words(const FitFile& other, const std::string& taken, const 
   return text + ". The intervals that are told cover both.";
 }
 
+/// What is foretold of a press with either contact.
+void take_either(const calibration::PredictedEntry& other, const std::string& name,
+                 calibration::PredictedEntry& own, std::string& statement) {
+  statement += fmt::format(" With {} contact: {}", name, calibration::prediction_words(other));
+  if (!other.failure.empty() || !own.failure.empty()) return;
+  own.within = 0.0;
+  for (std::size_t i = 0; i < own.x.size(); ++i) {
+    own.lower[i] = std::min(own.lower[i], other.lower[i]);
+    own.upper[i] = std::max(own.upper[i], other.upper[i]);
+    own.within += own.measured[i] >= own.lower[i] && own.measured[i] <= own.upper[i]
+                      ? 1.0 / double(own.x.size())
+                      : 0.0;
+  }
+  own.probability = std::max(own.probability, other.probability);
+}
+
 }  // namespace
 
 std::string contact_name(const FitSetup& fit) {
@@ -114,6 +131,8 @@ void add_other_contact(const FitFile& other, const std::string& taken, const std
     own.interval += ", both contacts";
   }
   fit.statement += said;
+  for (std::size_t i = 0; i < fit.predicted.size(); ++i)
+    take_either(other.predicted[i], name, fit.predicted[i], fit.statement);
 }
 
 void refuse_what_is_open(FitFile& fit) {

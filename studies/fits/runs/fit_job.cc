@@ -25,6 +25,7 @@
 #include "studies/fits/models/fit_relaxation.h"
 #include "studies/fits/models/fit_repeats.h"
 #include "studies/fits/models/fit_rig.h"
+#include "studies/fits/models/held_back.h"
 #include "studies/fits/models/measurement_gains.h"
 #include "studies/fits/models/omitted_effects.h"
 #include "studies/presses/press_record.h"
@@ -277,6 +278,11 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
                             return go_on();
                           })
             .gains;
+  record.predicted =
+      predicted(input, models, record, folder, context, [&](const std::string& name) {
+        stage = "press held back, " + name;
+        return go_on();
+      });
   record.rig = rig_values(input);
   for (std::size_t i = 0; has_travels(input) && i < input.curves.size(); ++i)
     record.indentation.push_back(models.indentations(i, record.fit.estimates));
@@ -322,6 +328,9 @@ ordered_json fit_inputs(const FitInput& input) {
     inputs["rig_given"].push_back(each.given);
   for (const KnownError& each : input.known_errors)
     inputs["known_errors"].push_back({each.name, each.value, each.step, each.low, each.high});
+  if (input.with_held_back)
+    for (std::size_t i = input.curves.size(); i < input.with_held_back->curves.size(); ++i)
+      inputs["held_back"].push_back(curve_inputs(*input.with_held_back, i));
   inputs["candidates"] = ordered_json::array();
   for (const Candidate& each : input.candidates) {
     inputs["candidates"].push_back({each.name, each.press, each.depth, each.refused});

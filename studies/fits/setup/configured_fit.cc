@@ -9,6 +9,7 @@
 #include "studies/config/finger_defaults.h"
 #include "studies/fits/models/continuum_model.h"
 #include "studies/fits/models/fit_relaxation.h"
+#include "studies/fits/models/fit_rig.h"
 #include "studies/fits/models/omitted_effects.h"
 #include "studies/fits/setup/fit_curves.h"
 #include "studies/fits/setup/fit_parameters.h"
@@ -223,6 +224,24 @@ void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
                   fit.input.options.max_evaluations));
 }
 
+/// What is fitted, and with it what is held back: its curves and parameters stand behind.
+void hold_back(const LoadedConfig& loaded, FitSetup& fit) {
+  if (fit.held_back == 0) return;
+  FitInput& input = fit.input;
+  input.with_held_back = std::make_shared<const FitInput>(input);
+  input.curves.resize(input.curves.size() - fit.held_back);
+  std::size_t parameters = material_parameters(input);
+  for (const calibration::FitBranch& branch : input.branches)
+    for (const calibration::FitQuantity& each : {branch.share, branch.time})
+      if (each.place) parameters = std::max(parameters, std::size_t(*each.place) + 1);
+  for (const FitCurve& curve : input.curves)
+    for (const auto member : calibration::rig_members)
+      if (const auto place = curve.travel ? (curve.travel->rig.*member).place : std::nullopt)
+        parameters = std::max(parameters, std::size_t(*place) + 1);
+  input.options.free.resize(parameters);
+  check_profile(loaded, input);
+}
+
 FitSetup set_up(const LoadedConfig& loaded, Presses presses,
                 const std::shared_ptr<MeasuredFiles>& files) {
   FitSetup first = assembled(loaded, presses, files);
@@ -231,6 +250,7 @@ FitSetup set_up(const LoadedConfig& loaded, Presses presses,
   if (fit.input.base.lattice.kinematics == lattice::Kinematics::small)
     for (std::size_t i = 0; i < excess.size(); ++i) fit.input.curves[i].finite_excess = excess[i];
   add_tolerances(loaded, fit.input);
+  hold_back(loaded, fit);
   set_budget(loaded, fit);
   if (const std::string note = spacing_note(loaded);
       lattice_of_fit(loaded) != LatticeUse::none && !note.empty())

@@ -1,5 +1,6 @@
 /// Measured curves as those of a fit: their presses, rigs, units and what is wrong with them.
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <map>
 
@@ -257,6 +258,35 @@ void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
   add_curve(fit.input, kind, std::move(file.curve), "").rows = rows;
 }
 
+/// A table of a file that has become a curve.
+struct TableRead {
+  const CurveSource* source = nullptr;
+  std::size_t table = 0;  ///< of those that are read of it
+};
+
+/// Further rows of a table that is fitted are the same press.
+bool continues(const TableRead& held, const TableRead& fitted) {
+  const CurveSource &rows = *held.source, &before = *fitted.source;
+  return !before.predicted && rows.rows && before.rows && rows.path == before.path &&
+         rows.block == before.block && held.table == fitted.table;
+}
+
+void hold_back_last(FitSetup& fit, const LoadedConfig& loaded, const std::vector<TableRead>& read) {
+  FitCurve& curve = fit.input.curves.back();
+  if (!is_press(curve.kind) || curve.kind == CurveKind::ramp)
+    throw refused(loaded, "calibration.data", curve.name, "only presses are held back",
+                  "leave use out");
+  ++fit.held_back;
+  const auto before = std::ranges::find_if(
+      read, [&](const TableRead& each) { return continues(read.back(), each); });
+  if (before == read.end()) return;
+  if (!fit.input.branches.empty())
+    throw refused(loaded, "calibration.data", curve.name,
+                  "a rubber that relaxes remembers the rows before those that are held back",
+                  "hold a whole file back");
+  curve.continues = std::size_t(before - read.begin());
+}
+
 }  // namespace
 
 void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
@@ -280,14 +310,24 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
       const auto own = under(loaded, settings_in(source.condition + ";" + condition), {});
       blanks[own.config.calibration.machine].push_back(std::move(source));
     }
+  const auto predicted = [](const auto& each) { return each.first.predicted; };
+  std::ranges::stable_partition(sources, std::not_fn(predicted));
+  if (std::ranges::all_of(sources, predicted))
+    throw refused(loaded, "calibration.data", "",
+                  "every press is held back (use = \"predict\"), and none is left to be fitted",
+                  "say use = \"fit\" of one");
   NotesOnFiles notes;
   std::vector<std::filesystem::path> files;
+  std::vector<TableRead> read;
   for (const auto& [source, condition] : sources) {
+    std::size_t table = 0;
     for (const MeasuredFile& file :
          fit.files->of(source, quantities_of(settings.problem), !fit.input.branches.empty())) {
-      add_provenance(fit, "", source.path, file.sha256);
+      add_provenance(fit, source.predicted ? "held back " : "", source.path, file.sha256);
       add_measured_curve(fit, loaded, source, file, condition, blanks, notes);
       files.push_back(source.path);
+      read.push_back({&source, table++});
+      if (source.predicted) hold_back_last(fit, loaded, read);
     }
   }
   notes.tell(fit.notes);

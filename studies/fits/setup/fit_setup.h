@@ -18,6 +18,7 @@ struct FitSetup {
   FitInput input;
   bool data_from_continuum = false;
   std::vector<std::vector<std::string>> settings;  ///< of measured or planned presses, as --set
+  std::size_t held_back = 0;                       ///< of the curves, the last ones
   bool contact_known = true;                       ///< of all of them, not by default
   std::vector<std::string> notes;  ///< on measured files, strain and budget; for people
   std::shared_ptr<MeasuredFiles> files = std::make_shared<MeasuredFiles>();  ///< that were read

@@ -182,3 +182,32 @@ TEST(ValueErrors, RefusesSizesThatDoNotFit) {
   const ErrorComponent other{MatrixXd::Ones(4, 1), 0.01};
   EXPECT_THROW(value_errors(at, {other}), meshes::InvalidInput);
 }
+
+/// Of many values whose noise is all there is, and of one further: sigma² (1 + J*²/JᵀJ), the mean
+/// where the values are.
+TEST(FurtherValues, AreThoseOfALineThroughManyValues) {
+  std::mt19937 random(5);
+  const Hertz hertz(400);
+  const LinearisedFit fit = hertz.fit(0.01 * drawn(400, random) + 0.002 * hertz.force, 0.01, true);
+  const FurtherValues further{VectorXd::Constant(1, 20.0), {}, VectorXd::Constant(1, 0.01)};
+  const MatrixXd draws = further_values(fit, {}, further, 20000);
+  ASSERT_GT(draws.cols(), 19000);
+  const double squares = hertz.force.squaredNorm(),
+               mean = 20.0 * hertz.force.dot(fit.residuals) / squares,
+               deviation = 0.01 * std::sqrt(1.0 + 400.0 / squares);
+  EXPECT_NEAR(draws.mean(), mean, 0.03 * deviation);
+  EXPECT_NEAR(std::sqrt((draws.array() - draws.mean()).square().mean()), deviation,
+              0.04 * deviation);
+}
+
+/// What is known to be missed and shared goes along: values that err together by v err further by
+/// as much as they were seen to, if noise is nothing.
+TEST(FurtherValues, ShareWhatIsKnownToBeMissed) {
+  const Hertz hertz(50);
+  const VectorXd shape = VectorXd::LinSpaced(50, 0.0, 1.0);
+  const LinearisedFit fit = hertz.fit(0.7 * shape, 1e-4, true);
+  const ErrorComponent known{MatrixXd(shape), 1.0, true};
+  const FurtherValues further{
+      VectorXd::Zero(1), {MatrixXd::Constant(1, 1, 2.0)}, VectorXd::Constant(1, 1e-4)};
+  EXPECT_NEAR(further_values(fit, {known}, further, 2000).mean(), 1.4, 0.01);
+}

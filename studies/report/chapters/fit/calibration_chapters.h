@@ -11,8 +11,9 @@
 
 namespace fingertip::studies::report::inline chapters::inline fit {
 
-/// Several fits side by side; then chapters of each fit: quality; what was measured; parameters;
-/// the machine; what the data determine; moduli and surrogate. Those without files have no blocks.
+/// Several fits side by side; then chapters of each fit: quality; what was held back; parameters;
+/// what was measured; the machine; what the data determine; moduli and surrogate. Those without
+/// files have no blocks.
 std::vector<Chapter> fit_chapters(const CalibrationData& data);
 /// Estimates with intervals, priors, bias and truth; correlation; other minima; where they hold.
 Chapter parameter_chapter(const Fit& fit, const std::string& prefix);
@@ -25,6 +26,8 @@ Table next_table(const std::vector<calibration::NextEntry>& next,
 /// Of measured presses: files with noise, loop, holds and repeats; the machine and what is like the
 /// misfit. Empty where files tell nothing of these.
 std::vector<Chapter> measured_chapters(const Fit& fit, const std::string& prefix);
+/// Presses that were held back, measured beside foretold. Without blocks where there are none.
+Chapter predicted_chapter(const Fit& fit, const std::string& prefix);
 /// "E = 3.93 kPa (95 %: 3.8 … 4.1)"
 std::string estimate_words(const FitParameter& parameter);
 /// Fits against what they predict: table of the worst errors, and errors against indentation.

@@ -209,7 +209,7 @@ std::vector<Chapter> fit_chapters(const CalibrationData& data) {
     if (fit.file.empty()) continue;
     chapters.push_back(quality_chapter(fit, prefix));
     std::vector<Chapter> parts = measured_chapters(fit, prefix);
-    parts.insert(parts.begin(), parameter_chapter(fit, prefix));
+    parts.insert(parts.begin(), {predicted_chapter(fit, prefix), parameter_chapter(fit, prefix)});
     parts.push_back(identifiability_chapter(fit, prefix));
     parts.push_back(material_chapter(fit, prefix));
     for (Chapter& part : parts) {

@@ -13,6 +13,7 @@
 #include "meshes/tables/csv_table.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/files/json_entry.h"
+#include "studies/files/read_fields.h"
 #include "studies/fits/runs/fit_corrections.h"
 #include "studies/fits/runs/fit_job.h"
 #include "studies/fits/setup/configured_fit.h"
@@ -188,4 +189,105 @@ TEST_F(OfTwoContacts, OfAContinuumManyRowsAreNoSamples) {
     EXPECT_EQ(curve.x.size(), 40u);
     EXPECT_EQ(fit.input.options.free.size(), 1u) << "nothing of a machine is sought";
   }
+}
+
+namespace {
+
+/// One finger, pressed on the plane and on a ball; the lattice's own forces at 60 kPa, times a
+/// factor, behind touches that no file tells.
+class HeldBack : public testing::Test {
+ protected:
+  std::vector<std::string> sets() const {
+    return {"calibration.problem=experiment",
+            "calibration.data=[\"" + (folder_ / "press.toml").string() + "\"]",
+            "calibration.parameters=[\"modulus\"]",
+            "calibration.candidates=[]",
+            "press.contact=stick",
+            "lattice.kinematics=small",
+            "lattice.spacing=tip_radius/4",
+            "calibration.rig={compliance=\"0 mm/N\"}"};
+  }
+  FitSetup setup() const { return fit_setup(load_config({{}, sets(), {}})); }
+  void describe(const std::string& presses) const {
+    std::ofstream(folder_ / "press.toml") << "[data]\nposition = {column = 1, unit = \"mm\"}\n"
+                                          << "force = {column = 2, unit = \"mN\"}\n"
+                                          << presses;
+  }
+  /// 30 mN/mm^1.5, as of Hertz, which so coarse a lattice meets about as well as any rubber does.
+  void measure(const char* name, double touch, double factor) const {
+    std::ofstream csv(folder_ / name);
+    csv << "x [mm];F [mN]\n";
+    for (int i = 1; i <= 30; ++i)
+      csv << touch + 0.05 * i << ';' << factor * 30.0 * std::pow(0.05 * i, 1.5) << '\n';
+  }
+  calibration::FitFile fitted() const {
+    JobContext context;
+    context.report = [](double, const std::string&) { return true; };
+    context.log = [](const std::string&) {};
+    const fs::path run = folder_ / "run";
+    fs::remove_all(run);
+    fs::create_directories(run);
+    fit_job(setup().input).run(run, context);
+    return struct_of<calibration::FitFile>(read_entry(run / "calibration.json"));
+  }
+
+  const TemporaryFolder folder_;
+};
+
+}  // namespace
+
+/// What is held back stands behind what is fitted, wherever the file names it.
+TEST_F(HeldBack, IsNoPartOfTheFit) {
+  measure("press.csv", 0.3, 1.0);
+  measure("other.csv", 0.1, 1.0);
+  describe("[[press]]\npath = \"other.csv\"\nuse = \"predict\"\n[[press]]\npath = \"press.csv\"\n");
+  const FitInput input = setup().input;
+  ASSERT_EQ(input.curves.size(), 1u);
+  EXPECT_EQ(input.curves[0].name, "press");
+  ASSERT_TRUE(input.with_held_back);
+  ASSERT_EQ(input.with_held_back->curves.size(), 2u);
+  EXPECT_EQ(input.with_held_back->curves[1].name, "other");
+  EXPECT_FALSE(input.with_held_back->curves[1].continues);
+  EXPECT_EQ(input.options.free.size(), 3u);                  // E, touch, zero
+  EXPECT_EQ(input.with_held_back->options.free.size(), 5u);  // and another touch and zero
+  describe("[[press]]\npath = \"press.csv\"\nuse = \"predict\"\n");
+  EXPECT_TRUE(refuses<std::exception>([&] { setup(); }, {"every press is held back"}));
+}
+
+TEST_F(HeldBack, IsForetoldWithTheTouchOfItsOwnFile) {
+  measure("press.csv", 0.3, 1.0);
+  measure("repeat.csv", 0.1, 1.0);
+  measure("stiffer.csv", 0.2, 1.5);
+  describe(
+      "[[press]]\npath = \"press.csv\"\n[[press]]\npath = [\"repeat.csv\", "
+      "\"stiffer.csv\"]\nuse = \"predict\"\n");
+  const calibration::FitFile fit = fitted();
+  ASSERT_EQ(fit.predicted.size(), 2u);
+  const calibration::PredictedEntry &repeat = fit.predicted[0], &stiffer = fit.predicted[1];
+  EXPECT_EQ(repeat.failure + stiffer.failure, "");
+  EXPECT_TRUE(repeat.is_within());
+  EXPECT_FALSE(stiffer.is_within());
+  ASSERT_EQ(repeat.own.size(), 2u);
+  EXPECT_EQ(repeat.own[0].name, "touch_offset (repeat)");
+  // The same forces 0.2 mm earlier.
+  EXPECT_NEAR(fit.rig->touch_offset[0].value - repeat.own[0].estimate, 0.2e-3, 5e-6);
+  EXPECT_TRUE(says(fit.statement, {"repeat, held back, is foretold within", "inside its 95 %",
+                                   "stiffer, held back", "outside its 95 %"}));
+}
+
+/// Further rows of a file that is fitted have its touch and its press.
+TEST_F(HeldBack, FurtherRowsArePartOfThePress) {
+  measure("press.csv", 0.3, 1.0);
+  describe(
+      "[[press]]\npath = \"press.csv\"\nrows = [1, 20]\n[[press]]\npath = \"press.csv\"\n"
+      "rows = [21, 30]\nname = \"deeper\"\nuse = \"predict\"\n");
+  const FitInput input = setup().input;
+  EXPECT_EQ(input.with_held_back->curves[1].continues, 0u);
+  EXPECT_EQ(input.with_held_back->options.free.size(), input.options.free.size());
+  EXPECT_EQ(input.curves[0].travel->depths, input.with_held_back->curves[1].travel->depths);
+  const calibration::FitFile fit = fitted();
+  ASSERT_EQ(fit.predicted.size(), 1u);
+  EXPECT_EQ(fit.predicted[0].failure, "");
+  EXPECT_TRUE(fit.predicted[0].own.empty());
+  EXPECT_LT(fit.predicted[0].rms_relative, 0.1);
 }
