@@ -140,28 +140,6 @@ double MeshHistory::vector_error(std::size_t index, std::initializer_list<Value>
   return safety_ * std::sqrt(sum);
 }
 
-std::vector<double> MeshHistory::marker_errors(std::size_t index) const {
-  const PressState& finest = *finest_state(index);
-  const double aside = finest.lateral_displacement,
-               way = std::hypot(finest.indentation, std::isnan(aside) ? 0.0 : aside),
-               excess = finest.energy > 0.0
-                            ? excess_per_indicator * finest.indicator / finest.energy * way
-                            : 0.0,
-               steps = index < step_errors_.size() ? step_errors_[index] * way : 0.0;
-  std::vector<double> errors;
-  for (std::size_t m = 0; m < finest.markers.size(); ++m) {
-    double sum = 0.0;
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-      sum += std::pow(
-          mesh_error(index,
-                     [&](const PressState& state) { return state.markers[m].displacement[axis]; })
-              .value,
-          2);
-    errors.push_back(std::isnan(sum) ? sum : safety_ * std::max(std::sqrt(sum), excess) + steps);
-  }
-  return errors;
-}
-
 ForceError MeshHistory::mesh_error(std::size_t index,
                                    const std::function<double(const PressState&)>& value,
                                    double noise) const {
@@ -206,8 +184,6 @@ std::vector<PressState> MeshHistory::best() const {
     result[i].contact_radius_error = radius_error(i);
     result[i].contact_area_error =
         2.0 * std::numbers::pi * result[i].contact_radius * result[i].contact_radius_error;
-    const std::vector<double> of_markers = marker_errors(i);
-    for (std::size_t m = 0; m < of_markers.size(); ++m) result[i].markers[m].error = of_markers[m];
   }
   return result;
 }

@@ -74,12 +74,6 @@ class MeshHistory {
   /// of a turn with its cube (meshes::PressSample::set_errors). In h^1/2 that noise is of second
   /// order, as the force's in h, and so this takes the place of h.
   double vector_error(std::size_t index, std::initializer_list<Value> parts) const;
-  /// Of each marker's displacement [m], NaN with one mesh: the safety times max(e, b), and the
-  /// steps' share of the way. e: its length over the three components. b: as of the force, the
-  /// share by which a mesh stores too much, 2 S/E, of the way that the obstacle has gone. Held
-  /// against further meshes it covers 97 % of the markers, 91 % of the worst press's, with a median
-  /// ratio to the true error of 8 (MEASUREMENTS.md, Markers).
-  std::vector<double> marker_errors(std::size_t index) const;
   /// Which of the `best` are off by more than that share of normal_force.
   std::vector<char> beyond(double tolerance) const;
   /// Largest force_error over normal_force; NaN before there is an estimate for every sample.

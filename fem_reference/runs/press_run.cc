@@ -325,7 +325,7 @@ class PressRun : Run {
     if (!first_process()) return;
     last_tables_ = Clock::now();
     const std::vector<PressState> best = history_.best();
-    write_samples(best, folder_);
+    write_samples(best, job_, folder_);
     write_convergence(history_, folder_);
     write_summary(summarise(best, outcome), progress_, folder_);
   }

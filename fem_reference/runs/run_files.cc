@@ -5,13 +5,16 @@
 
 #include "fem_reference/job/run_tables.h"
 #include "meshes/base/files.h"
+#include "meshes/press/marker_measures.h"
+#include "meshes/press/obstacle.h"
 #include "meshes/tables/table_rows.h"
 
 namespace fingertip::fem_reference::inline runs {
 
 using meshes::to_text;
 
-void write_samples(const std::vector<PressState>& states, const std::filesystem::path& folder) {
+void write_samples(const std::vector<PressState>& states, const ReferenceJob& job,
+                   const std::filesystem::path& folder) {
   meshes::PressResponse response;
   for (const PressState& state : states) response.append(state);
   response.write_csv(folder / "response.csv");
@@ -19,9 +22,15 @@ void write_samples(const std::vector<PressState>& states, const std::filesystem:
   for (std::size_t i = 0; i < states.size(); ++i)
     meshes::add_sample(states[i].contact, int(i + 1), states[i].indentation, points);
   meshes::write_rows(points, folder / "contact_field.csv");
+  const meshes::PressProtocol& protocol = job.protocol;
+  if (protocol.markers.empty()) return;
+  const meshes::Vector3 touched = touched_first(job.geometry, protocol.tilt, protocol.obstacle);
   std::vector<meshes::MarkerRow> markers;
-  for (std::size_t i = 0; i < states.size(); ++i)
-    meshes::add_sample(states[i].markers, int(i + 1), states[i].indentation, markers);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    std::vector<meshes::MarkerRow> own = states[i].markers;
+    set_marker_errors(states[i], touched, own);
+    meshes::add_sample(own, int(i + 1), states[i].indentation, markers);
+  }
   if (!markers.empty()) meshes::write_rows(markers, folder / "markers.csv");
 }
 

@@ -6,12 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "fem_reference/job/job.h"
 #include "fem_reference/press/mesh_history.h"
 
 namespace fingertip::fem_reference::inline runs {
 
-/// response.csv, contact_field.csv and, of a job with markers, markers.csv of the best samples.
-void write_samples(const std::vector<PressState>& states, const std::filesystem::path& folder);
+/// response.csv, contact_field.csv and, of a job with markers, markers.csv of the best samples,
+/// with errors that go with those of their forces (meshes::set_marker_errors).
+void write_samples(const std::vector<PressState>& states, const ReferenceJob& job,
+                   const std::filesystem::path& folder);
 
 /// convergence.csv: one row per mesh and sample.
 void write_convergence(const MeshHistory& history, const std::filesystem::path& folder);

@@ -193,7 +193,7 @@ class TransientRun : Run {
 
   void write_tables(const RunOutcome& outcome) const {
     if (!first_process()) return;
-    write_samples(states_, folder_);
+    write_samples(states_, job_, folder_);
     write_convergence(static_presses_, folder_);
     write_steps();
     RunSummary summary = summary_head(outcome, job_);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lattice/dynamics/time_step.h"
+#include "meshes/press/marker_measures.h"
 #include "meshes/press/obstacle.h"
 #include "meshes/press/press_motion.h"
 #include "meshes/shape/geometry.h"
@@ -42,6 +43,10 @@ constexpr GridError springs_alone{0.04, 0.1, 1.7, 0.18, 0.25, 0.4};  // central
 
 /// e: by how many spacings the radius of what sticks may be too large.
 constexpr double edge_of_stick = 0.16;
+
+/// Of what another Poisson's ratio sends outward, over u_z of the surface at delta a/r; 4/(3 pi) on
+/// a half space, about twice that of rubber that a rod holds.
+constexpr double outward = 0.8;
 
 /// Mindlin's d ln Q/d ln u where Q is the share `s` of what friction holds, from 0 to 1.
 double still_held(double s) {
@@ -298,12 +303,14 @@ struct ForceEstimator::Terms {
   double elongated = 1.0;    ///< of the contact
   std::optional<Sway> sway;  ///< in presses in time
   double scaled_step = 0.0;  ///< of scaled masses [s]; 0: plain ones
+  meshes::Vector3 touched;   ///< first, in the undeformed finger [m]
 
   explicit Terms(const PressSetup& with_program)
       : setup(pressed_once(with_program)),
         force(setup.geometry, setup.rubber, setup.protocol.obstacle),
         of_quarter(setup.geometry, quarter_of(setup.rubber), setup.protocol.obstacle),
-        elongated(elongation(setup.geometry, setup.protocol.obstacle)) {
+        elongated(elongation(setup.geometry, setup.protocol.obstacle)),
+        touched(touched_first(setup.geometry, setup.protocol.tilt, setup.protocol.obstacle)) {
     if (setup.protocol.mode == meshes::DriveMode::equilibrium) return;
     sway.emplace(setup.geometry, setup.rubber);
     if (setup.integrator != Integrator::mass_scaled) return;
@@ -387,14 +394,24 @@ meshes::RelativeErrors ForceEstimator::errors(const meshes::PressSample& sample,
   return errors;
 }
 
-double ForceEstimator::displacement_error(const meshes::PressSample& sample) const {
+double ForceEstimator::displacement_error(const meshes::PressSample& sample,
+                                          const meshes::MarkerRow& marker) const {
   const auto estimate = of(sample);
   if (!estimate) return meshes::unknown;
+  const PressSetup& setup = terms_->setup;
   const meshes::RelativeErrors relative = errors(sample, *estimate);
   const auto moved = [](double value) { return std::isnan(value) ? 0.0 : std::abs(value); };
-  return relative.normal * sample.indentation +
-         relative.aside * moved(sample.lateral_displacement) +
-         relative.spin * moved(sample.twist) * sample.contact_radius;
+  const double depth = sample.indentation, aside = moved(sample.lateral_displacement),
+               turned = moved(sample.twist) * sample.contact_radius,
+               off = relative.normal * depth + relative.aside * aside + relative.spin * turned;
+  double error =
+      off * marker_share(marker, terms_->touched, sample.contact_radius, depth + aside + turned);
+  if (setup.lattice.model == ModelKind::central) {
+    const double nu = setup.rubber.poissons_ratio();
+    error += outward * std::abs((1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)) - 1.0 / 3.0) * depth *
+             std::min(1.0, sample.contact_radius / (marker.place - terms_->touched).norm());
+  }
+  return error;
 }
 
 double ForceEstimator::spacing_for(double depth, double tolerance) const {

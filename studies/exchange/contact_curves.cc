@@ -91,6 +91,7 @@ ContactCurves::ContactCurves(const LoadedConfig& loaded, Of of) {
     meshes::PressProtocol& protocol = own.config.press.protocol;
     protocol.obstacle = obstacle;
     protocol.samples = depths_to(depth);
+    protocol.markers.clear();
     const fem_reference::Strain strain = loaded.entries.at("reference.strain").given
                                              ? loaded.config.reference.strain
                                              : fem_reference::Strain::finite;

@@ -1,14 +1,22 @@
 #include "studies/presses/force_error.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <utility>
 
 #include "meshes/cells/cubic_grid.h"
 #include "studies/config/finger_defaults.h"
+#include "studies/files/places.h"
 #include "studies/files/shown_units.h"
 #include "studies/presses/press_setup.h"
+#include "studies/presses/reference_job.h"
 
 namespace fingertip::studies::inline presses {
 namespace {
@@ -63,6 +71,39 @@ ErrorSource error_source(const LoadedConfig& loaded) {
   const bool linear = reference.strain == fem_reference::Strain::linear;
   return {reference, false,
           std::string("from the continuum at ") + (linear ? "small" : "large") + " strain"};
+}
+
+ErrorSource source_at_hand(const LoadedConfig& loaded, const Cache& cache) {
+  ErrorSource source = error_source(loaded);
+  if (source.continuum && loaded.config.force_error == ForceErrorBy::automatic &&
+      !std::filesystem::exists(reference_program()) &&
+      !cache.keeps(reference_job(*source.continuum)))
+    return estimated_source(loaded.config.press.lattice.model,
+                            "the continuum is not built (`./fingertip reference` does it)");
+  return source;
+}
+
+PressResponse pressed(const ReferenceJob& reference, const Cache& cache,
+                      const std::function<bool()>& stop) {
+  namespace fs = std::filesystem;
+  const fs::path folder =
+      fs::temp_directory_path() / ("fingertip-continuum-" + std::to_string(::getpid()));
+  const auto remove = [&folder](void*) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+  };
+  const std::shared_ptr<void> afterwards(nullptr, remove);
+  const Job job = reference_job(reference);
+  if (!cache.fetch(job, folder)) {
+    const auto start = std::chrono::steady_clock::now();
+    fs::create_directories(folder);
+    job.run(folder,
+            {[&](double, const std::string&) { return !stop(); }, [](const std::string&) {}});
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    mark(job, folder, finished, wall.count());
+    cache.store(job, folder);
+  }
+  return PressResponse::read_csv(folder / "response.csv");
 }
 
 std::string error_words(const ForceErrorEntry& entry) {
@@ -126,23 +167,31 @@ void put_errors(PressSample& sample, const PressSample& truth) {
   put(&PressSample::max_pressure_error, &PressSample::max_pressure);
 }
 
+/// The continuum's sample where the `i`-th of a lattice is; null without one.
+const PressSample* sample_beside(const PressResponse& response, std::size_t i,
+                                 const PressResponse& continuum) {
+  const std::size_t loading = response.pressing().size(), pressed = continuum.pressing().size();
+  const std::span all(continuum.samples());
+  const auto among = i < loading ? all.first(pressed) : all.subspan(pressed);
+  const PressSample& sample = response.samples()[i];
+  const auto beside = std::ranges::find_if(among, [&](const PressSample& other) {
+    return i < loading ? same_length(other.indentation, sample.indentation)
+                       : other.is_beside(sample);
+  });
+  return beside == among.end() ? nullptr : &*beside;
+}
+
 }  // namespace
 
 PressResponse with_force_error(const PressResponse& response, const PressResponse& continuum) {
   std::vector<PressSample> samples = response.samples();
   const auto pressed = continuum.pressing();
   const std::size_t loading = response.pressing().size();
-  const std::span after = std::span(continuum.samples()).subspan(pressed.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     PressSample& sample = samples[i];
     sample.set_errors(meshes::unknown);
     if (continuum.empty()) continue;
-    const auto among = i < loading ? pressed : after;
-    const auto beside = std::ranges::find_if(among, [&](const PressSample& other) {
-      return i < loading ? same_length(other.indentation, sample.indentation)
-                         : other.is_beside(sample);
-    });
-    if (beside != among.end()) {
+    if (const PressSample* beside = sample_beside(response, i, continuum)) {
       put_errors(sample, *beside);
     } else if (i < loading && sample.indentation > pressed.front().indentation &&
                sample.indentation < continuum.depth()) {
@@ -178,7 +227,27 @@ std::vector<meshes::MarkerRow> with_estimated_error(std::vector<meshes::MarkerRo
                                                     const PressResponse& response,
                                                     const lattice::ForceEstimator& estimator) {
   for (meshes::MarkerRow& row : markers)
-    row.error = estimator.displacement_error(response.samples().at(std::size_t(row.sample - 1)));
+    row.error =
+        estimator.displacement_error(response.samples().at(std::size_t(row.sample - 1)), row);
+  return markers;
+}
+
+std::vector<meshes::MarkerRow> with_marker_error(std::vector<meshes::MarkerRow> markers,
+                                                 const PressResponse& response,
+                                                 const std::vector<meshes::MarkerRow>& of_continuum,
+                                                 const PressResponse& continuum) {
+  std::map<std::pair<int, int>, const meshes::MarkerRow*> known;
+  for (const meshes::MarkerRow& row : of_continuum) known[{row.sample, row.marker}] = &row;
+  for (meshes::MarkerRow& row : markers) {
+    row.error = meshes::unknown;
+    if (continuum.empty()) continue;
+    const PressSample* beside = sample_beside(response, std::size_t(row.sample - 1), continuum);
+    if (!beside) continue;
+    const auto found = known.find({int(beside - continuum.samples().data()) + 1, row.marker});
+    if (found == known.end()) continue;
+    const meshes::MarkerRow& truth = *found->second;
+    row.error = truth.error + (row.displacement - truth.displacement).norm();
+  }
   return markers;
 }
 

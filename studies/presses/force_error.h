@@ -1,6 +1,7 @@
 /// The error of a lattice's forces: how far they are from the continuum's in the same press.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "meshes/press/press_response.h"
 #include "studies/config/loaded_config.h"
 #include "studies/files/press_summary.h"
+#include "studies/jobs/cache.h"
 
 namespace fingertip::studies::inline presses {
 
@@ -27,6 +29,13 @@ struct ErrorSource {
 /// What `run.error` means for this press. The continuum's strain is the lattice's unless
 /// reference.strain is given. Where the continuum cannot, or takes long, the error is estimated.
 ErrorSource error_source(const LoadedConfig& loaded);
+/// The same, but for a continuum that is not built yet, not asked for and not kept.
+ErrorSource source_at_hand(const LoadedConfig& loaded, const Cache& cache);
+
+/// The response of a continuum's press, from the cache or computed for it, without a run folder.
+/// Throws as its job does, Interrupted once `stop` says so.
+meshes::PressResponse pressed(const fem_reference::ReferenceJob& reference, const Cache& cache,
+                              const std::function<bool()>& stop);
 
 /// What is left where the continuum is not to be had: `why` is a sentence's end.
 ErrorSource estimated_source(lattice::ModelKind model, const std::string& why);
@@ -61,5 +70,11 @@ meshes::PressResponse with_estimated_error(const meshes::PressResponse& response
 std::vector<meshes::MarkerRow> with_estimated_error(std::vector<meshes::MarkerRow> markers,
                                                     const meshes::PressResponse& response,
                                                     const lattice::ForceEstimator& estimator);
+/// The same where the continuum has pressed: how far a marker is off its own of `of_continuum`,
+/// plus that one's error; unknown at samples that the continuum does not have.
+std::vector<meshes::MarkerRow> with_marker_error(std::vector<meshes::MarkerRow> markers,
+                                                 const meshes::PressResponse& response,
+                                                 const std::vector<meshes::MarkerRow>& of_continuum,
+                                                 const meshes::PressResponse& continuum);
 
 }  // namespace fingertip::studies::inline presses

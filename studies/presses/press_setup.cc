@@ -271,7 +271,6 @@ fem_reference::ReferenceJob continuum_at_rest(const LoadedConfig& loaded,
   reference.analysis = fem_reference::Analysis::static_press;
   reference.strain = strain;
   reference.write_fields = false;
-  own.config.press.protocol.markers.clear();  // its forces are what is asked for
   return continuum_setup(own);
 }
 
@@ -284,6 +283,7 @@ fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
                                              lattice::Kinematics kinematics) {
   LoadedConfig own = loaded;
   own.config.continuum_law = ContinuumLaw::a;
+  own.config.press.protocol.markers.clear();  // its forces are what is asked for
   return continuum_at_rest(own, strain_of(kinematics));
 }
 

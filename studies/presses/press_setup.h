@@ -40,13 +40,13 @@ lattice::PressSetup free_press(ConfigSource source);
 /// The continuum's job. Throws ConfigError.
 fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded);
 
-/// Its press at rest, whatever reference.mode says, at this strain, without fields and markers.
-/// Throws ConfigError.
+/// Its press at rest, whatever reference.mode says, at this strain, without fields. Throws
+/// ConfigError.
 fem_reference::ReferenceJob continuum_at_rest(const LoadedConfig& loaded,
                                               fem_reference::Strain strain);
 fem_reference::Strain strain_of(lattice::Kinematics kinematics);
 
-/// The continuum beside a press: at rest, linear or law A as `kinematics` says.
+/// The continuum beside a press: at rest, linear or law A as `kinematics` says, without markers.
 fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
                                              lattice::Kinematics kinematics);
 

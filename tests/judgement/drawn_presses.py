@@ -28,7 +28,8 @@ With --fields it is the error of the pressures, point by point, that is judged, 
 presses whose truth is a meridian's.
 
 With --markers it is the error of displacements that is judged, of a grid of markers in those of the
-presses whose truth is a meridian's, some on the surface and some below it.
+presses whose truth is a meridian's, some on the surface and some below it; with --continuum besides it
+is that of the continuum.
 
 With --continuum it is the continuum that is pressed, to 4, 2, 1 and on a meridian 0.1 %, and its own
 error that is judged, by a continuum to a tenth of what that tells at best (a solid's to a third).
@@ -286,7 +287,7 @@ def draw_continuum(numbers):
     sets.append(f"press.samples=[{samples}]")
     classes = [kind, contact, strain, shape, body, f"nu {ratio}", f"{100 * tolerance:g} %",
                "relaxes" if relaxes else "elastic"]
-    return classes, sets, {"tolerance": tolerance, "flat": flat}
+    return classes, sets, {"tolerance": tolerance, "flat": flat, "wall": 1e-3 * wall}
 
 
 def measure_continuum(bench, number, drawn):
@@ -412,15 +413,15 @@ def measure_fields(bench, number, drawn):
     return pressures
 
 
-def measure_markers(bench, number, drawn):
-    """As measure(), of the displacements of markers, over the indentation."""
+def measure_markers(bench, number, drawn, measured=measure):
+    """As `measured`, of the displacements of markers, over the indentation."""
     classes, sets, about = drawn
     if not about["flat"] or "solid" in classes:
         return []
     below = (0.0, 0.2, 0.5, 0.8)[number % 4] * 1e3 * about["wall"]
     grid = ["sensor.markers=grid", 'sensor.marker_pitch="1.9 mm"',
             f'sensor.marker_depth="{below:.4f} mm"']
-    found = measure(bench, number, (classes, [*sets, *grid], about))
+    found = measured(bench, number, (classes, [*sets, *grid], about))
     if found and isinstance(found[0], str):
         return found
     out, rows = bench.folder / f"press{number}", []
@@ -439,6 +440,11 @@ def measure_markers(bench, number, drawn):
                               "bar": errors[0] / sample["depth"],
                               "slack": errors[1] / sample["depth"]})
     return rows
+
+
+def measure_marked_continuum(bench, number, drawn):
+    """The same of the continuum's own."""
+    return measure_markers(bench, number, drawn, measure_continuum)
 
 
 def aside(row, true, sample, column, name, axes, unit):
@@ -483,7 +489,8 @@ def main():
     asked = parser.parse_args()
     numbers = random.Random(asked.seed)
     draw_one = draw_turned if asked.turned else draw_continuum if asked.continuum else draw
-    measure_one = measure_continuum if asked.continuum else \
+    measure_one = measure_marked_continuum if asked.continuum and asked.markers else \
+        measure_continuum if asked.continuum else \
         measure_fields if asked.fields else measure_markers if asked.markers else measure
     drawn = [draw_one(numbers) for _ in range(asked.presses)]
     drawn = [(i, d) for i, d in enumerate(drawn) if set(asked.only) <= set(d[0])]
@@ -506,8 +513,7 @@ def main():
     if asked.auto:
         good = judge_automatic(samples, len(drawn) - refused)
     else:
-        # A marker far from the contact is known better than what the force is off says.
-        widest = math.inf if asked.continuum or asked.markers else WIDEST
+        widest = math.inf if asked.continuum and not asked.markers else WIDEST
         vectors = ("lateral force", "torque")
         good = asked.turned or judge([s for s in samples if s["classes"][0] not in vectors], "all",
                                      widest)

@@ -7,6 +7,7 @@
 
 #include "calibration/files/words.h"
 #include "fem_reference/job/run_tables.h"
+#include "meshes/press/markers.h"
 #include "meshes/press/press_response.h"
 #include "meshes/tables/table_rows.h"
 #include "studies/cli/command_line/real_time.h"
@@ -211,39 +212,59 @@ void print_sensors(const std::filesystem::path& folder, const std::vector<meshes
   if (!finer.empty()) fmt::print(stderr, "fingertip: note: {}\n", finer);
 }
 
+/// Of the run of a press; empty of one without markers.
+std::vector<meshes::MarkerRow> markers_in(const std::filesystem::path& folder) {
+  const std::filesystem::path table = folder / "markers.csv";
+  return std::filesystem::exists(table) ? meshes::read_rows<meshes::MarkerRow>(table)
+                                        : std::vector<meshes::MarkerRow>();
+}
+
+struct ContinuumPress {
+  meshes::PressResponse response = {};
+  std::vector<meshes::MarkerRow> markers = {};
+};
+
 /// The continuum's press for the error of a lattice's; empty where it failed, and `source` is then
 /// the estimate.
-meshes::PressResponse press_continuum(Session& session, lattice::ModelKind model,
-                                      ErrorSource& source) {
+ContinuumPress press_continuum(Session& session, lattice::ModelKind model, ErrorSource& source) {
   PlannedJob planned{"continuum", reference_job(*source.continuum), false};
   // A run of seconds starts again: one that goes on in the middle of a sample differs by round-off.
   if (source.continuum->axisymmetric()) planned.job.resumable = false;
-  meshes::PressResponse response;
+  ContinuumPress press;
   const std::string failure = failure_of([&] {
     session.run(planned);
-    response = meshes::PressResponse::read_csv(session.path_of(planned) / "response.csv");
+    const std::filesystem::path folder = session.path_of(planned);
+    press.response = meshes::PressResponse::read_csv(folder / "response.csv");
+    press.markers = markers_in(folder);
   });
   if (!failure.empty()) source = estimated_source(model, "the continuum failed: " + failure);
-  return response;
+  return press;
 }
 
 /// Gives a press that is done the error of its forces, as `run.error` says: the column force_error
-/// of its response.csv, force_error in its summary.json. Nothing where none is wanted.
+/// of its response.csv, force_error in its summary.json; and that of its markers. Nothing where
+/// none is wanted.
 std::optional<ForceErrorEntry> find_force_error(ErrorSource source,
                                                 const lattice::PressSetup& setup, Session& session,
                                                 ToldSummary& told,
                                                 meshes::PressResponse& response) {
   const std::filesystem::path& folder = session.folder().path();
-  const meshes::PressResponse continuum =
-      source.continuum ? press_continuum(session, setup.lattice.model, source)
-                       : meshes::PressResponse();
+  const ContinuumPress continuum =
+      source.continuum ? press_continuum(session, setup.lattice.model, source) : ContinuumPress();
   // Also where neither is wanted: the job has its estimate, and a resumed folder what was found.
   const lattice::ForceEstimator estimator(setup);
   response = source.estimated
                  ? with_estimated_error(response, estimator)
-                 : with_pressure_error(with_force_error(response, continuum), estimator);
+                 : with_pressure_error(with_force_error(response, continuum.response), estimator);
   response.write_csv(folder / "response.csv");
   mark_rewritten(folder, "response.csv");
+  if (const auto markers = markers_in(folder); !markers.empty()) {
+    meshes::write_rows(source.estimated ? with_estimated_error(markers, response, estimator)
+                                        : with_marker_error(markers, response, continuum.markers,
+                                                            continuum.response),
+                       folder / "markers.csv");
+    mark_rewritten(folder, "markers.csv");
+  }
   if (source.statement.empty()) {
     told.put("force_error", {});
     return {};
@@ -259,17 +280,6 @@ std::optional<ForceErrorEntry> find_force_error(ErrorSource source,
   }
   told.put("force_error", meshes::json_of<nlohmann::ordered_json>(entry));
   return entry;
-}
-
-/// error_source, but for a continuum that is not built yet, not asked for and not kept.
-ErrorSource source_at_hand(const LoadedConfig& loaded, const Cache& cache) {
-  ErrorSource source = error_source(loaded);
-  if (source.continuum && loaded.config.force_error == ForceErrorBy::automatic &&
-      !std::filesystem::exists(reference_program()) &&
-      !cache.keeps(reference_job(*source.continuum)))
-    return estimated_source(loaded.config.press.lattice.model,
-                            "the continuum is not built (`./fingertip reference` does it)");
-  return source;
 }
 
 }  // namespace

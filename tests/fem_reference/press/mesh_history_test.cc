@@ -32,6 +32,7 @@ PressState state(double indentation, double force, double spacing) {
   result.indentation = indentation;
   result.normal_force = force;
   result.contact_radius = std::sqrt(indentation * 0.01);
+  result.markers = meshes::marker_rows({{0.0, 0.0, 8e-3}}, {{0.0, 0.0, -0.7 * indentation}});
   result.max_pressure = 1e5 * force;
   for (const double pressure : {1e5 * force, 1.0 / 3.0}) {
     meshes::ContactPoint& point = result.contact.emplace_back();
@@ -105,40 +106,6 @@ TEST(MeshHistory, OneMeshTellsNoError) {
   history.add(state(1e-3, 1.01, medium));
   EXPECT_FALSE(std::isnan(history.best()[0].force_error));
   EXPECT_TRUE(std::isnan(history.worst_relative_error()));
-}
-
-/// Length over the components, and no less than what a mesh stores in excess, of the way.
-TEST(MeshHistory, MarkersHaveErrorsOfTheirOwn) {
-  const auto history_of = [](double indicator, double aside) {
-    MeshHistory history(1.2);
-    for (const auto& [spacing, moved] :
-         {std::pair(coarse, 1.10e-3), std::pair(medium, 1.02e-3), std::pair(fine, 1.01e-3)}) {
-      history.start_mesh(mesh(1000));
-      PressState next = state(2e-3, 1.0, spacing);
-      next.indicator = indicator * next.energy;
-      next.lateral_displacement = aside;
-      next.markers = meshes::marker_rows(
-          {{1e-3, 2e-3, 9e-3}, {0.0, 0.0, 8e-3}},
-          {moved * meshes::Vector3(0.6, 0.0, -0.8), meshes::Vector3(0.0, 0.0, -1e-3)});
-      history.add(next);
-    }
-    return history;
-  };
-  const double differences =
-      1.25 * std::max(0.01e-3 / decay(medium, fine), 0.09e-3 / decay(coarse, fine));
-  const MeshHistory exact = history_of(0.0, meshes::unknown);
-  ASSERT_EQ(exact.marker_errors(0).size(), 2u);
-  EXPECT_NEAR(exact.marker_errors(0)[0], 1.2 * differences, 1e-12);
-  EXPECT_EQ(exact.marker_errors(0)[1], 0.0);
-  const auto floors = history_of(0.05, 1.5e-3).best()[0].markers;  // a way of 2.5 mm
-  EXPECT_NEAR(floors[0].error, 1.2 * 2.0 * 0.05 * 2.5e-3, 1e-12);
-  EXPECT_NEAR(floors[1].error, floors[0].error, 1e-15);
-  const MeshHistory read = MeshHistory::from_json(exact.to_json(), MeshHistory(1.2));
-  EXPECT_EQ(read.best()[0].markers[0].error, exact.best()[0].markers[0].error);
-  MeshHistory one;
-  one.start_mesh(mesh(1000));
-  one.add(exact.meshes()[0].states[0]);
-  EXPECT_TRUE(std::isnan(one.marker_errors(0)[0]));
 }
 
 /// A mesh that was refined elsewhere has the better force, but tells nothing about the error.
@@ -332,6 +299,8 @@ TEST(MeshHistory, SurvivesJson) {
   EXPECT_TRUE(std::isnan(b.time));
   EXPECT_EQ(b.contact.size(), 2u);
   EXPECT_EQ(b.contact[1].place, a.contact[1].place);
+  ASSERT_EQ(b.markers.size(), 1u);
+  EXPECT_EQ(b.markers[0].displacement, a.markers[0].displacement);
   EXPECT_EQ(b.contact[1].normal_traction, 1.0 / 3.0);
   EXPECT_EQ(b.contact[1].state, meshes::ContactState::slip);
   EXPECT_EQ(b.node_spacing, a.node_spacing);
@@ -363,11 +332,24 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
 
 TEST(RunFiles, SamplesAreTheBestOnesWithTheirErrors) {
   const TemporaryFolder folder;
-  fem_reference::write_samples(three_meshes().best(), folder.path());
+  fem_reference::ReferenceJob job;
+  job.protocol.markers = {{0.0, 0.0, 8e-3}, {3e-3, 0.0, 0.0}};
+  std::vector<PressState> best = three_meshes().best();
+  for (PressState& sample : best)
+    sample.markers = meshes::marker_rows(
+        job.protocol.markers, {{0.0, 0.0, -0.8 * sample.indentation}, meshes::Vector3::Zero()});
+  fem_reference::write_samples(best, job, folder.path());
   const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
   ASSERT_EQ(response.samples().size(), 2u);
   EXPECT_EQ(response.samples()[0].normal_force, 1.01);
   EXPECT_NEAR(response.samples()[0].force_error, three_meshes().error(0).value, 1e-12);
+  const auto markers = meshes::read_rows<meshes::MarkerRow>(folder / "markers.csv");
+  ASSERT_EQ(markers.size(), 4u);
+  const meshes::PressSample& sample = response.samples()[0];
+  const double off = sample.force_error / sample.normal_force * sample.indentation;
+  EXPECT_NEAR(markers[0].error, 0.8 * off, 1e-12) << "the force's share of the displacement";
+  EXPECT_NEAR(markers[1].error, std::pow(sample.contact_radius / std::hypot(3e-3, 10e-3), 2) * off,
+              1e-12);
   const auto points = meshes::read_rows<meshes::ContactPoint>(folder / "contact_field.csv");
   ASSERT_EQ(points.size(), 4u);
   EXPECT_EQ(points[3].sample, 2);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "meshes/press/marker_measures.h"
 #include "meshes/press/press_protocol.h"
 #include "tests/expectations.h"
 #include "tests/fingers.h"
@@ -104,6 +105,72 @@ TEST(MarkerGrid, IsRefusedWhereItCannotBe) {
   EXPECT_EQ(key(1e-3, 5.1e-3), "sensor.marker_depth");  // in the rod
   EXPECT_EQ(key(0.1e-3, 0.0), "sensor.marker_pitch");
   EXPECT_EQ(key(0.2e-3, 0.0), "");
+}
+
+MarkerRow moved(int marker, const Vector3& displacement, double error) {
+  return {.marker = marker,
+          .place = Vector3(1e-3 * marker, 0.0, 8e-3),
+          .displacement = displacement,
+          .error = error};
+}
+
+TEST(MarkerDifferences, AreMeasuredOverAllMarkers) {
+  const std::vector<MarkerRow> truth{moved(1, {0.0, 0.0, -3e-3}, 1e-5),
+                                     moved(2, {4e-3, 0.0, 0.0}, 1e-5)},
+      own{moved(1, {0.0, 0.0, -3.3e-3}, 2e-5), moved(2, {4e-3, 0.4e-3, 0.0}, unknown)};
+  const MarkerLengths lengths = marker_lengths(truth);
+  EXPECT_NEAR(lengths.rms, 5e-3 / std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(lengths.marker, 2);
+  EXPECT_NEAR(lengths.largest, 4e-3, 1e-15);
+  EXPECT_NEAR(lengths.error, 1e-5, 1e-15);
+  EXPECT_TRUE(std::isnan(marker_lengths(own).error));
+
+  const auto off = marker_differences(own, truth);
+  ASSERT_EQ(off.size(), 2u);
+  EXPECT_NEAR(off[0].error, 3e-5, 1e-15);
+  EXPECT_NEAR(off[1].error, 1e-5, 1e-15) << "the one that is known";
+  EXPECT_NEAR(marker_lengths(off).rms, 0.5e-3 / std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(marker_lengths(off).marker, 2);
+}
+
+/// As large a share of what moves as of the force; in the contact of all of the way; aside as the
+/// lateral force.
+TEST(MarkerErrors, GoWithThoseOfTheForces) {
+  PressSample sample;
+  sample.indentation = 1e-3;
+  sample.normal_force = 2.0;
+  sample.force_error = 0.02;
+  sample.contact_radius = 3e-3;
+  const Vector3 pole(0.0, 0.0, 10e-3);
+  const auto errors = [&] {
+    std::vector<MarkerRow> markers{
+        {.place = pole},
+        {.place = pole - Vector3(0.0, 0.0, 6e-3)},
+        {.place = {0.0, 0.0, -2e-3}, .displacement = {0.0, 0.2e-3, 0.0}}};
+    set_marker_errors(sample, pole, markers);
+    return markers;
+  };
+  auto markers = errors();
+  EXPECT_NEAR(markers[0].error, 1e-5, 1e-15);
+  EXPECT_NEAR(markers[1].error, 0.25e-5, 1e-15);
+  EXPECT_NEAR(markers[2].error, 0.2e-5, 1e-15);
+  sample.lateral_displacement = 0.5e-3;
+  sample.lateral_force_x = 0.4;
+  sample.lateral_force_y = 0.0;
+  sample.lateral_force_error = 0.02;  // 5 %
+  markers = errors();
+  EXPECT_NEAR(markers[0].error, 1e-5 + 2.5e-5, 1e-15);
+  sample.force_error = unknown;
+  EXPECT_TRUE(std::isnan(errors()[1].error));
+}
+
+TEST(MarkerDifferences, AreOfTheSameMarkersAlone) {
+  const std::vector<MarkerRow> two{moved(1, {}, 0.0), moved(2, {}, 0.0)};
+  std::vector<MarkerRow> other = two;
+  other[1].place.x() += 1e-5;
+  EXPECT_TRUE(marker_differences(two, other).empty());
+  EXPECT_TRUE(marker_differences(two, std::vector{two.front()}).empty());
+  EXPECT_TRUE(std::isnan(marker_lengths({}).rms));
 }
 
 }  // namespace

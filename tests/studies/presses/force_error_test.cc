@@ -161,18 +161,50 @@ TEST(ForceError, OfAnEstimateIsAPartOfTheForceWhereThereIsContact) {
       500.0 * (0.005 + estimate.profile));
 }
 
-TEST(ForceError, OfADisplacementIsAsLargeAPartOfTheWay) {
+/// As large a part of it as of the force, but near the contact, where displacements change sign.
+TEST(ForceError, OfADisplacementIsAPartOfIt) {
   PressSample pressed = sample(1e-3, 2.0), slid = sample(1e-3, 2.0);
   pressed.contact_radius = slid.contact_radius = 3e-3;
   slid.lateral_displacement = 0.5e-3;
-  const fingertip::lattice::ForceEstimator estimator(setup_of({"press.mode=static"}));
-  std::vector<fingertip::meshes::MarkerRow> rows(3);
-  for (int i = 0; i < 3; ++i) rows[std::size_t(i)].sample = i + 1;
-  rows = with_estimated_error(rows, PressResponse({sample(0.5e-3, 1.0), pressed, slid}), estimator);
-  EXPECT_TRUE(std::isnan(rows[0].error)) << "no radius is known";
-  EXPECT_DOUBLE_EQ(rows[1].error, 1e-3 * estimator.of(pressed)->sum());
+  const PressResponse response({sample(0.5e-3, 1.0), pressed, slid});
+  const auto setup = setup_of({"press.mode=static"});
+  const fingertip::lattice::ForceEstimator estimator(setup);
+  const fingertip::meshes::Vector3 pole(0.0, 0.0, setup.geometry.pole()), down(0.0, 0.0, -0.2e-3);
+  const auto error = [&](int at, double below, const fingertip::meshes::Vector3& displacement) {
+    return with_estimated_error({{.sample = at,
+                                  .place = pole - fingertip::meshes::Vector3(0.0, 0.0, below),
+                                  .displacement = displacement}},
+                                response, estimator)
+        .front()
+        .error;
+  };
+  const double share = estimator.of(pressed)->sum();
+  EXPECT_TRUE(std::isnan(error(1, 0.0, down))) << "no radius is known";
+  EXPECT_NEAR(error(2, 4.9e-3, 5.0 * down), share * 1e-3, 1e-12) << "as far as the obstacle";
+  EXPECT_NEAR(error(2, 6e-3, down), share * 0.25e-3, 1e-12) << "(a/r)² of the indentation";
+  EXPECT_NEAR(error(2, 12e-3, down), share * 0.2e-3, 1e-12) << "of the displacement";
+  EXPECT_NEAR(error(2, 0.0, {}), share * 1e-3, 1e-12) << "in the contact of all of the way";
   // Aside the edge of what sticks counts, too.
-  EXPECT_GT(rows[2].error, 1.5 * rows[1].error);
+  EXPECT_GT(error(3, 0.0, {}), 1.5 * error(2, 0.0, {}));
+}
+
+TEST(ForceError, OfADisplacementIsItsDistanceFromTheContinuum) {
+  using fingertip::meshes::MarkerRow;
+  using fingertip::meshes::Vector3;
+  const PressResponse lattice({sample(1e-3, 2.0), sample(2e-3, 6.0)}),
+      continuum({sample(0.5e-3, 1.0), sample(1e-3, 2.1)});
+  const auto row = [](int at, int marker, double down, double error) {
+    return MarkerRow{
+        .sample = at, .marker = marker, .displacement = Vector3(0.0, 0.0, -down), .error = error};
+  };
+  const auto rows = with_marker_error(
+      {row(1, 1, 0.5e-3, 1.0), row(1, 2, 0.2e-3, 1.0), row(2, 1, 1e-3, 1.0)}, lattice,
+      {row(1, 1, 0.1e-3, 0.0), row(1, 2, 0.1e-3, 0.0), row(2, 1, 0.47e-3, 0.01e-3),
+       row(2, 2, 0.2e-3, 0.02e-3)},
+      continuum);
+  EXPECT_NEAR(rows[0].error, 0.04e-3, 1e-12);
+  EXPECT_NEAR(rows[1].error, 0.02e-3, 1e-12);
+  EXPECT_TRUE(std::isnan(rows[2].error)) << "the continuum has no such sample";
 }
 
 /// A bar above what was asked for says so, from where on that is kept, and what would keep it.
