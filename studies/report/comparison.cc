@@ -126,7 +126,8 @@ Panel force_panel(const std::vector<ComparedCurve>& curves) {
 std::vector<RunContact> runs_of(const Comparison& comparison) {
   std::vector<RunContact> runs;
   for (const ComparedCurve& curve : comparison.curves)
-    runs.push_back({curve.label, curve.style, &curve.response, &curve.contact});
+    runs.push_back(
+        {curve.label, curve.style, &curve.response, &curve.contact, nullptr, &curve.markers});
   return runs;
 }
 
@@ -268,7 +269,7 @@ std::string screen_text(const Comparison& comparison, const std::vector<Chapter>
   for (std::size_t i = 1; i < curves.size(); ++i)
     if (const double l2 = overall(curves[i], curves.front()).l2; !std::isnan(l2))
       text += fmt::format("relative L2 difference of {}: {:.2f} %\n", curves[i].label, 100.0 * l2);
-  for (const Chapter& chapter : chapters) text += tables_text(chapter, {"contact"});
+  for (const Chapter& chapter : chapters) text += tables_text(chapter, {"contact", "markers"});
   const std::vector<RunContact> runs = runs_of(comparison);
   for (const PlaneMotion& motion : motions_of(runs))
     if (const Table table = motion_table(runs, motion); !table.rows.empty())
@@ -305,8 +306,40 @@ void write_contacts(const ContactComparison& contacts, const fs::path& file) {
   write_lines(lines, file);
 }
 
+/// A row per sample, of each run the displacements, from the second on their differences.
+void write_markers(const MarkerComparison& markers, const fs::path& file) {
+  if (markers.runs.size() < 2) return write_lines({}, file);
+  std::vector<Cells> lines{{"indentation [m]", "sample"}};
+  const auto head = [&](const RunContact& run, const char* what) {
+    lines.front().push_back(meshes::csv_cell(run.label + " " + what));
+  };
+  for (const RunContact& run : markers.runs) {
+    for (const char* what : {"rms [m]", "largest [m]", "error [m]"}) head(run, what);
+    if (&run == &markers.runs.front()) continue;
+    for (const char* what : {"difference [m]", "largest_difference [m]", "marker",
+                             "difference_error [m]", "relative_difference", "relative_error"})
+      head(run, what);
+  }
+  for (const MarkersAtSample& here : markers.samples) {
+    Cells& cells =
+        lines.emplace_back(Cells{meshes::to_text(here.indentation), std::to_string(here.sample)});
+    const auto put = [&](std::initializer_list<double> values) {
+      for (const double value : values) cells.push_back(if_known(value, meshes::to_text(value)));
+    };
+    for (std::size_t run = 0; run < markers.runs.size(); ++run) {
+      const meshes::MarkerLengths own = meshes::marker_lengths(here.fields[run]);
+      put({own.rms, own.largest, own.error});
+      if (run == 0) continue;
+      const meshes::MarkerLengths off = here.difference(run);
+      put({off.rms, off.largest, here.differences[run].empty() ? meshes::unknown : off.marker,
+           off.error, here.relative(run), here.relative_error(run)});
+    }
+  }
+  write_lines(lines, file);
+}
+
 Page comparison_page(const Comparison& comparison, const ContactComparison& contacts,
-                     FolderReader& reader) {
+                     const MarkerComparison& markers, FolderReader& reader) {
   const std::vector<ComparedCurve>& curves = comparison.curves;
   WordList remarks;
   for (const ComparisonRemark& remark : comparison.remarks) {
@@ -333,6 +366,8 @@ Page comparison_page(const Comparison& comparison, const ContactComparison& cont
   page.answer = summary_sentence(comparison);
   page.chapters.push_back(written(std::move(chapter)));
   page.chapters.push_back(reader.attempt([&] { return contact_chapter(contacts); }));
+  if (markers.runs.size() > 1)
+    page.chapters.push_back(reader.attempt([&] { return marker_chapter(markers); }));
   std::vector<fs::path> folders;
   for (const ComparedCurve& curve : curves) folders.push_back(curve.folder);
   const std::vector<MovingPress> presses = moving_presses(folders, reader);
@@ -347,12 +382,14 @@ ComparisonResult write_comparison(const std::vector<fs::path>& runs, const fs::p
   FolderReader reader;
   const Comparison comparison = read_comparison(runs, reader);
   const ContactComparison contacts = compared_contacts(runs_of(comparison));
-  const Page page = comparison_page(comparison, contacts, reader);
+  const MarkerComparison markers = compared_markers(runs_of(comparison));
+  const Page page = comparison_page(comparison, contacts, markers, reader);
   fs::create_directories(out_folder);
   publish(page, out_folder, "comparison.html");
   write_csv(comparison, out_folder / "comparison.csv");
   write_following(comparison, out_folder / "comparison_following.csv");
   write_contacts(contacts, out_folder / "comparison_contact.csv");
+  write_markers(markers, out_folder / "comparison_markers.csv");
   return {screen_text(comparison, page.chapters), reader.damage()};
 }
 

@@ -157,7 +157,8 @@ class PageMaker {
     Makers chapters;
     for (Chapter (*const chapter)(const RunData&) :
          {static_cast<Chapter (*)(const RunData&)>(force_chapter),
-          static_cast<Chapter (*)(const RunData&)>(contact_chapter), control_chapter,
+          static_cast<Chapter (*)(const RunData&)>(contact_chapter),
+          static_cast<Chapter (*)(const RunData&)>(marker_chapter), control_chapter,
           snapshots_chapter, elasticity_chapter, pictures_chapter, published_chapter,
           equilibrium_chapter, reasons_chapter, continuum_chapter, verification_chapter,
           cost_chapter})
@@ -176,12 +177,15 @@ class PageMaker {
       const DrawnPress& press = run_.drawn[i];
       const std::vector<RunContact> both{
           {model_label("reference"), model_style("reference"), &press.reference,
-           &press.reference_contact, &press.reference_taxels},
-          {"lattice", numbered_style(1), &press.response, &press.contact, &press.taxels}};
+           &press.reference_contact, &press.reference_taxels, &press.reference_markers},
+          {"lattice", numbered_style(1), &press.response, &press.contact, &press.taxels,
+           &press.markers}};
       chapters.emplace_back([both, &press, i] {
         return contact_chapter(compared_contacts(both), press.name, i + 1);
       });
       chapters.emplace_back([both, &press, i] { return skin_chapter(both, press.name, i + 1); });
+      chapters.emplace_back(
+          [both, &press, i] { return marker_chapter(compared_markers(both), press.name, i + 1); });
     }
     return made("Soft fingertip: a study of lattices",
                 "A study of mass-spring fingertips against a continuum of the same specimen",
@@ -241,7 +245,7 @@ class PageMaker {
         "A mass-spring fingertip pressed against a plane",
         [&] { return joined(forces, control_answer(presses)); },
         {[&] { return press_chapter(press.response, press.trace); }, [&] { return own_contact(); },
-         [&] { return own_skin(run_.response); },
+         [&] { return own_skin(run_.response); }, [&] { return own_markers(); },
          [&] { return program_chapter(press.response, press); },
          [&] {
            return real_time_chapter(
@@ -259,6 +263,16 @@ class PageMaker {
     return skin_chapter({{"", numbered_style(0), &response, &run_.contact, &run_.taxels}});
   }
 
+  /// Of a press, beside the continuum where that has told its errors.
+  Chapter own_markers() {
+    const bool alone = run_.beside.empty() || run_.reference_markers.empty();
+    return marker_chapter(
+        compared_markers({{model_label("reference"), model_style("reference"), &run_.beside,
+                           nullptr, nullptr, alone ? nullptr : &run_.reference_markers},
+                          {alone ? "" : "lattice", numbered_style(0), &run_.response, nullptr,
+                           nullptr, &run_.markers}}));
+  }
+
   /// The run of a static `press`.
   Page static_page() {
     const std::vector<MovingPress> presses{own_press()};
@@ -266,7 +280,7 @@ class PageMaker {
                 "A mass-spring fingertip in equilibrium with what it touches",
                 [&] { return press_answer(run_.response, presses.front().summary); },
                 {[&] { return press_chapter(run_.response); }, [&] { return own_contact(); },
-                 [&] { return own_skin(run_.response); },
+                 [&] { return own_skin(run_.response); }, [&] { return own_markers(); },
                  [&] { return program_chapter(run_.response, presses.front()); },
                  [&] { return sliding_chapter(run_.response); },
                  [&] { return snapshots_chapter(presses); }});
@@ -279,6 +293,10 @@ class PageMaker {
         [&] { return press_answer(run_.reference, {}); },
         {[&] { return force_chapter(run_); }, [&] { return contact_chapter(run_); },
          [&] { return own_skin(run_.reference); },
+         [&] {
+           return marker_chapter(compared_markers({{"", model_style("reference"), &run_.reference,
+                                                    nullptr, nullptr, &run_.reference_markers}}));
+         },
          [&] { return program_chapter(run_.reference, {}); },
          [&] { return sliding_chapter(run_.reference); }, [&] { return continuum_chapter(run_); },
          [&] { return pictures_chapter(run_); }, [&] { return cost_chapter(run_); }});

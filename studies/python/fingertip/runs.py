@@ -187,5 +187,10 @@ class Comparison(Run):
         """comparison.csv."""
         return self.table("comparison")
 
+    @cached_property
+    def markers(self) -> Table:
+        """comparison_markers.csv, of runs with markers."""
+        return self.table("comparison_markers")
+
     def report(self) -> Path:
         return self.folder / "comparison.html"

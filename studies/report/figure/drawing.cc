@@ -167,22 +167,25 @@ std::string axis(const Panel& panel, bool vertical) {
   return text + axis_range(name, range, base != 0);
 }
 
+std::string colour_scale(const char* palette, const Range& range, const std::string& label) {
+  return fmt::format(
+      "set palette defined {}\nset cbrange [{:.8g}:{:.8g}]\nset cblabel {} offset 1.5,0\n"
+      "set colorbox\n",
+      palette, range.from, range.to, gnuplot_string(label));
+}
+
 /// The data and the item of a plot.
-struct MapScript {
+struct ItemScript {
   std::string data, item;
 };
-MapScript map_script(const HeatMap& map, std::size_t index) {
+ItemScript map_script(const HeatMap& map, std::size_t index) {
   const std::string block = fmt::format("$p{}map", index);
-  MapScript script{
-      "set palette defined " +
-          std::string(map.signed_values
-                          ? "(-1 '#0072B2', -0.5 '#9ecae1', 0 '#ffffff', 0.5 '#fdae6b', "
-                            "1 '#D55E00')"
-                          : "(0 '#f7fbff', 0.35 '#9ecae1', 0.7 '#3182bd', 1 '#08306b')"),
+  ItemScript script{
+      colour_scale(map.signed_values
+                       ? "(-1 '#0072B2', -0.5 '#9ecae1', 0 '#ffffff', 0.5 '#fdae6b', 1 '#D55E00')"
+                       : "(0 '#f7fbff', 0.35 '#9ecae1', 0.7 '#3182bd', 1 '#08306b')",
+                   map.values, map.label),
       block + " using 1:2:3 with image notitle"};
-  script.data +=
-      fmt::format("\nset cbrange [{:.8g}:{:.8g}]\nset cblabel {} offset 1.5,0\nset colorbox\n",
-                  map.values.from, map.values.to, gnuplot_string(map.label));
   script.data += block + " << EOD\n";
   const GridFunction& f = map.function;
   for (std::size_t i = 0; i < f.x.size(); ++i)
@@ -190,6 +193,24 @@ MapScript map_script(const HeatMap& map, std::size_t index) {
       script.data += std::isfinite(f.values[i][j])
                          ? fmt::format("{:.6g} {:.6g} {:.5g}\n", f.x[i], f.y[j], f.values[i][j])
                          : fmt::format("{:.6g} {:.6g} NaN\n", f.x[i], f.y[j]);
+  script.data += "EOD\n";
+  return script;
+}
+
+/// The palest colour is to be seen on white.
+ItemScript arrows_script(const ColouredArrows& drawn, std::size_t index) {
+  const std::string block = fmt::format("$p{}arrows", index);
+  ItemScript script{colour_scale("(0 '#b0b7bf', 0.35 '#56B4E9', 0.7 '#0072B2', 1 '#0b1f5c')",
+                                 drawn.range, drawn.label) +
+                        block + " << EOD\n",
+                    block +
+                        " using 1:2:3:4:5 with vectors head filled size screen 0.01,18 "
+                        "lc palette lw 1.8 notitle"};
+  for (std::size_t i = 0; i < drawn.arrows.size(); ++i) {
+    const Arrow& arrow = drawn.arrows[i];
+    script.data += fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.5g}\n", arrow.x1, arrow.y1,
+                               arrow.x2 - arrow.x1, arrow.y2 - arrow.y1, drawn.values[i]);
+  }
   script.data += "EOD\n";
   return script;
 }
@@ -205,14 +226,14 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   text += panel.bare ? "unset border\nunset xtics\nunset ytics\nunset grid\n" : "";
   text += decorations(panel);
   const auto seen = [&](const Series& series) { return visible(panel, series); };
-  if (!panel.map && std::none_of(panel.series.begin(), panel.series.end(), seen)) {
+  if (!panel.has_colour_scale() && std::none_of(panel.series.begin(), panel.series.end(), seen)) {
     // An empty panel keeps its place in the layout.
     return text + "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\n" +
            tell_axes;
   }
   std::string plot;
   if (panel.map) {
-    const MapScript map = map_script(*panel.map, index);
+    const ItemScript map = map_script(*panel.map, index);
     text += map.data;
     plot = "plot " + map.item;
   }
@@ -225,6 +246,11 @@ std::string panel_script(const Panel& panel, std::size_t index) {
     if (!own.line_x.empty()) text += data_block(block + "l", own.line_x, own.line_y, {}, own.shift);
     plot += (plot.empty() ? "plot " : ", \\\n  ") + plot_item(panel.series[i], block);
   }
+  if (panel.coloured_arrows && !panel.coloured_arrows->arrows.empty()) {
+    const ItemScript arrows = arrows_script(*panel.coloured_arrows, index);
+    text += arrows.data;
+    plot += (plot.empty() ? "plot " : ", \\\n  ") + arrows.item;
+  }
   return text + plot + "\n" + tell_axes;
 }
 
@@ -235,8 +261,7 @@ std::string layout(const Figure& figure, int columns, int rows) {
   const double w = figure.width, h = figure.height;
   const bool shared = columns == 1;
   // Where a scale of colours stands beside each panel.
-  const double scale =
-      std::ranges::any_of(figure.panels, [](const Panel& p) { return p.map.has_value(); }) ? 80 : 0;
+  const double scale = std::ranges::any_of(figure.panels, &Panel::has_colour_scale) ? 80 : 0;
   return fmt::format(
       "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen "
       "{:.4f},{:.4f}\n",

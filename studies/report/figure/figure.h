@@ -115,6 +115,14 @@ struct Arrow {
   bool two_heads = false;
 };
 
+/// Arrows in the colours of a value.
+struct ColouredArrows {
+  std::vector<Arrow> arrows = {};  ///< whose own colours do not count
+  std::vector<double> values = {};
+  Range range = {};   ///< of the colours; from < to
+  std::string label;  ///< of the values, with their unit
+};
+
 /// A surface in space, coloured by a value. Drawn with all three axes from -extent to extent.
 struct Surface {
   struct Point {
@@ -153,6 +161,9 @@ struct Panel {
   /// row.
   std::optional<Surface> surface = std::nullopt;
   std::optional<HeatMap> map = std::nullopt;  ///< behind the series
+  std::optional<ColouredArrows> coloured_arrows = std::nullopt;  ///< before them; in place of a map
+
+  bool has_colour_scale() const { return map || coloured_arrows; }
 };
 
 /// Panel::key of a legend above the axes.

@@ -95,6 +95,7 @@ void write_points(const Figure& figure, const fs::path& file) {
     column(panel.x_label), column(panel.y_label);
     if (panel.surface) column(panel.surface->z_label), column(panel.surface->value_label);
     if (panel.map) column(panel.map->label);
+    if (panel.coloured_arrows) column(panel.coloured_arrows->label);
   }
   meshes::write_atomically(file, [&](std::ostream& out) {
     out << "panel,series";
@@ -124,6 +125,17 @@ void write_points(const Figure& figure, const fs::path& file) {
                     {{panel.x_label, f.x[i]},
                      {panel.y_label, f.y[j]},
                      {panel.map->label, f.values[i][j]}});
+      }
+      if (panel.coloured_arrows) {  // from where to where
+        const ColouredArrows& drawn = *panel.coloured_arrows;
+        for (std::size_t i = 0; i < drawn.arrows.size(); ++i) {
+          const Arrow& arrow = drawn.arrows[i];
+          write(panel, "from",
+                {{panel.x_label, arrow.x1},
+                 {panel.y_label, arrow.y1},
+                 {drawn.label, drawn.values[i]}});
+          write(panel, "to", {{panel.x_label, arrow.x2}, {panel.y_label, arrow.y2}});
+        }
       }
       if (!panel.surface) continue;
       for (const auto& row : panel.surface->rows) {

@@ -51,6 +51,7 @@ std::vector<ComparedCurve> read_curves(const fs::path& folder, FolderReader& rea
                          read_rejected(place, reader),
                          reader.response(place / "response.csv"),
                          reader.rows<meshes::ContactPoint>(place / "contact_field.csv"),
+                         reader.rows<meshes::MarkerRow>(place / "markers.csv"),
                          {}};
   };
   if (fs::exists(folder / "response.csv")) return {curve(folder, label, label)};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meshes/press/contact_field.h"
+#include "meshes/press/markers.h"
 #include "meshes/press/press_response.h"
 #include "studies/files/folder_reader.h"
 #include "studies/files/press_condition.h"
@@ -25,6 +26,7 @@ struct ComparedCurve {
   std::vector<std::string> rejected;  ///< why the fit of what was pressed was not accepted
   meshes::PressResponse response;
   std::vector<meshes::ContactPoint> contact;
+  std::vector<meshes::MarkerRow> markers;
   Style style;
 
   double first_depth() const { return response.samples().front().indentation; }

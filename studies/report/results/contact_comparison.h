@@ -6,19 +6,22 @@
 #include <vector>
 
 #include "meshes/press/contact_map.h"
+#include "meshes/press/markers.h"
 #include "meshes/press/press_response.h"
 #include "meshes/press/taxels.h"
 #include "studies/report/figure/figure.h"
 
 namespace fingertip::studies::report::inline results {
 
-/// A run's contact_field.csv and taxels.csv beside its response, all of which must outlive it.
+/// A run's contact_field.csv, taxels.csv and markers.csv beside its response, all of which must
+/// outlive it.
 struct RunContact {
   std::string label;
   Style style;
   const meshes::PressResponse* response;
   const std::vector<meshes::ContactPoint>* contact;
   const std::vector<meshes::TaxelRow>* taxels = nullptr;  ///< null: it has no skin
+  const std::vector<meshes::MarkerRow>* markers = nullptr;  ///< null: it has none
 };
 
 struct ContactsAtDepth {

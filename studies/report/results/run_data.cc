@@ -37,6 +37,7 @@ ModelData read_model(const fs::path& folder, const std::string& name, const Mode
       reader.json(folder / ("calibration_" + name) / "calibration.json"));
   model.response = reader.response(folder / name / "response.csv");
   model.contact = reader.rows<meshes::ContactPoint>(folder / name / "contact_field.csv");
+  model.markers = reader.rows<meshes::MarkerRow>(folder / name / "markers.csv");
   return model;
 }
 
@@ -212,6 +213,7 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   if (continuum != folder) {
     reader.note_missing(continuum);
     run.contact = reader.rows<meshes::ContactPoint>(folder / "contact_field.csv");
+    run.markers = reader.rows<meshes::MarkerRow>(folder / "markers.csv");
   }
   run.taxels = reader.rows<meshes::TaxelRow>(folder / "taxels.csv");
   run.continuum = reader.take<fem_reference::RunSummary>(reader.json(continuum / "summary.json"));
@@ -222,6 +224,9 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   run.convergence = reader.rows<fem_reference::ConvergenceRow>(continuum / "convergence.csv");
   run.section = reader.rows<fem_reference::SectionRow>(continuum / "section.csv");
   run.reference_contact = reader.rows<meshes::ContactPoint>(continuum / "contact_field.csv");
+  run.beside = reader.response(folder / "continuum" / "response.csv");
+  run.reference_markers = reader.rows<meshes::MarkerRow>(
+      (run.beside.empty() ? continuum : folder / "continuum") / "markers.csv");
   run.cubes = reader.rows<CubeRow>(folder / "cubes.csv");
   run.published_study = reader.rows<PublishedStudyRow>(folder / "published_study.csv");
   run.equilibrium_study = reader.rows<EquilibriumStudyRow>(folder / "equilibrium_study.csv");
@@ -234,7 +239,9 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
                          reader.rows<meshes::ContactPoint>(own / "contact_field.csv"),
                          reader.rows<meshes::ContactPoint>(other / "contact_field.csv"),
                          reader.rows<meshes::TaxelRow>(own / "taxels.csv"),
-                         reader.rows<meshes::TaxelRow>(other / "taxels.csv")});
+                         reader.rows<meshes::TaxelRow>(other / "taxels.csv"),
+                         reader.rows<meshes::MarkerRow>(own / "markers.csv"),
+                         reader.rows<meshes::MarkerRow>(other / "markers.csv")});
   }
   const auto& models = run.summary.models;
   for (const std::string& name : ordered_models(models)) {

@@ -16,6 +16,7 @@
 #include "fem_reference/verification/verification_file.h"
 #include "lattice/press/trace.h"
 #include "meshes/press/contact_field.h"
+#include "meshes/press/markers.h"
 #include "meshes/press/press_response.h"
 #include "meshes/press/taxels.h"
 #include "studies/files/case_summary.h"
@@ -103,6 +104,7 @@ struct ModelData : PressFiles {
   calibration::ModuliFile calibration;        ///< calibration_NAME/calibration.json, or empty
   meshes::PressResponse response;             ///< empty when absent
   std::vector<meshes::ContactPoint> contact;
+  std::vector<meshes::MarkerRow> markers;
 
   /// Relative force error at the last depth reached; NaN when there is none.
   double last_force_error() const;
@@ -114,6 +116,7 @@ struct DrawnPress {
   meshes::PressResponse response, reference;
   std::vector<meshes::ContactPoint> contact, reference_contact;
   std::vector<meshes::TaxelRow> taxels, reference_taxels;
+  std::vector<meshes::MarkerRow> markers, reference_markers;
 };
 
 /// A run folder; what it does not hold is empty. Most entries are those of `validate`.
@@ -135,11 +138,14 @@ struct RunData {
   meshes::PressResponse response;             ///< of a press itself
   std::vector<meshes::ContactPoint> contact;  ///< of a press itself
   std::vector<meshes::TaxelRow> taxels;       ///< of a press or a continuum itself
+  std::vector<meshes::MarkerRow> markers;     ///< of a press itself
   std::vector<VibrationMode> modes;
   meshes::PressResponse reference;  ///< empty when the continuum was not run
   std::vector<fem_reference::ConvergenceRow> convergence;
   std::vector<fem_reference::SectionRow> section;
   std::vector<meshes::ContactPoint> reference_contact;  ///< of the continuum
+  std::vector<meshes::MarkerRow> reference_markers;     ///< of it; of a press of the one beside it
+  meshes::PressResponse beside;  ///< of a press the continuum's from which its errors are
   std::vector<CubeRow> cubes;
   std::vector<PublishedStudyRow> published_study;
   std::vector<EquilibriumStudyRow> equilibrium_study;

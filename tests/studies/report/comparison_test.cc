@@ -100,6 +100,61 @@ TEST(Comparison, TellsHowContactsDiffer) {
   EXPECT_TRUE(says(read_text(out / "comparison.html"), "The contact of soft at"));
 }
 
+/// Two samples at 1 and 2 mm of a row of markers that goes down by `factor` times half the way.
+std::string markers(double factor, double error, double shift = 0.0) {
+  std::ostringstream text;
+  text << "sample,indentation [m],marker,x [m],y [m],z [m],displacement_x [m],displacement_y [m],"
+          "displacement_z [m],error [m]\n";
+  for (int sample = 1; sample <= 2; ++sample)
+    for (int i = 0; i < 9; ++i)
+      text << sample << ',' << 1e-3 * sample << ',' << i + 1 << ',' << 1e-3 * (i - 4) + shift
+           << ",0,0.009,0,0," << -0.5e-3 * sample * factor << ',' << error << '\n';
+  return text.str();
+}
+
+/// At samples that both have, of the same markers, on the screen, in the file and on the page.
+TEST(Comparison, TellsHowMarkersDiffer) {
+  TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const std::vector<fs::path> runs{folder.path() / "soft", folder.path() / "stiff"};
+  const auto put = [](const fs::path& run, const std::string& text) {
+    report_testing::write_file(run / "response.csv",
+                               "indentation [m],normal_force [N]\n0.001,0.1\n0.002,0.2\n");
+    report_testing::write_file(run / "markers.csv", text);
+  };
+  put(runs[0], markers(1.0, 1e-6));
+  put(runs[1], markers(1.1, 3e-6));
+  const std::string screen = studies::report::write_comparison(runs, out).text;
+  const auto rows = cells(read_text(out / "comparison_markers.csv"));
+  ASSERT_EQ(rows.size(), 3u);
+  ASSERT_EQ(rows[0].size(), 14u);
+  EXPECT_EQ(rows[0][2], "soft rms [m]");
+  EXPECT_EQ(rows[0][8], "stiff difference [m]");
+  EXPECT_EQ(rows[0][12], "stiff relative_difference");
+  for (std::size_t i = 1; i < 3; ++i) {
+    const double way = 0.5e-3 * double(i);
+    EXPECT_NEAR(std::stod(rows[i][0]), 1e-3 * double(i), 1e-12);
+    EXPECT_NEAR(std::stod(rows[i][2]), way, 1e-12);
+    EXPECT_NEAR(std::stod(rows[i][8]), 0.1 * way, 1e-12);
+    EXPECT_NEAR(std::stod(rows[i][9]), 0.1 * way, 1e-12);
+    EXPECT_NEAR(std::stod(rows[i][11]), 4e-6, 1e-12);
+    EXPECT_NEAR(std::stod(rows[i][12]), 0.1, 1e-9);
+    EXPECT_NEAR(std::stod(rows[i][13]), 4e-6 / way, 1e-9);
+  }
+  EXPECT_TRUE(says(screen, {"stiff: relative difference", "10.0 %", "errors 0.40 %"})) << screen;
+  const std::string html = read_text(out / "comparison.html");
+  EXPECT_TRUE(says(html, {"<section id=\"markers\">", "How 9 markers have moved"}));
+  EXPECT_TRUE(report_testing::structure_faults(html).empty());
+  for (const char* figure : {"markers_along", "markers_side", "markers_difference"})
+    EXPECT_TRUE(fs::exists(out / "figures" / (std::string(figure) + ".svg"))) << figure;
+
+  // Other markers are not compared, and no file tells of them.
+  put(runs[1], markers(1.1, 3e-6, 1e-4));
+  studies::report::write_comparison(runs, out);
+  EXPECT_FALSE(fs::exists(out / "comparison_markers.csv"));
+  EXPECT_FALSE(says(read_text(out / "comparison.html"), "<section id=\"markers\">"));
+}
+
 TEST(Comparison, GivesDifferencesRelativeToTheFirstRun) {
   TemporaryFolder folder;
   write_line(folder.path() / "soft", 1.0, 0.002);

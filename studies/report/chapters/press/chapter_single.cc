@@ -15,9 +15,6 @@
 namespace fingertip::studies::report::inline chapters::inline press {
 namespace {
 
-/// Rows of a table that a reader takes in; the figure and its CSV have every sample.
-constexpr std::size_t max_rows = 20;
-
 const Style single{"#0072B2", "", 2.2, 7};
 
 SampleColumn normal_force() {
@@ -42,17 +39,6 @@ Panel curve_panel(SampleRange samples, const SampleColumn& over, const SampleCol
               .key = ""};
   begin_at_zero(panel);
   return panel;
-}
-
-/// Every 2nd, 5th, 10th ... so that depths stay round, and the last one is among them.
-std::vector<meshes::PressSample> thinned(SampleRange samples) {
-  std::size_t every = 1;
-  for (const std::size_t step : {2, 5, 10, 20, 50, 100, 200, 500, 1000})
-    if ((samples.size() + every - 1) / every > max_rows) every = step;
-  std::vector<meshes::PressSample> some;
-  for (std::size_t i = (samples.size() - 1) % every; i < samples.size(); i += every)
-    some.push_back(samples[i]);
-  return some;
 }
 
 /// Error bars at the depths of the table, where errors are known.

@@ -3,12 +3,14 @@
 
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "studies/files/real_time_record.h"
 #include "studies/report/page/words.h"
 #include "studies/report/results/contact_comparison.h"
 #include "studies/report/results/grasp_run.h"
+#include "studies/report/results/marker_comparison.h"
 #include "studies/report/results/moving_press.h"
 #include "studies/report/results/run_data.h"
 
@@ -53,6 +55,19 @@ SampleRange moved_along_plane(const meshes::PressResponse& response);
 /// Force, error, lateral force, torque about the normal, contact radius and pressures, as far as
 /// they are known, beside what the samples are ordered by.
 Table sample_table(SampleRange samples, const std::vector<SampleColumn>& over);
+/// Rows of a table that a reader takes in; the figure and its CSV have every sample.
+inline constexpr std::size_t max_rows = 20;
+/// Every 2nd, 5th, 10th ... so that depths stay round, and the last one is among them.
+template <class Rows>
+auto thinned(const Rows& rows) {
+  std::size_t every = 1;
+  for (const std::size_t step : {2, 5, 10, 20, 50, 100, 200, 500, 1000})
+    if ((rows.size() + every - 1) / every > max_rows) every = step;
+  std::vector<std::remove_cvref_t<decltype(rows.front())>> some;
+  for (std::size_t i = (rows.size() - 1) % every; i < rows.size(); i += every)
+    some.push_back(rows[i]);
+  return some;
+}
 /// Stages of a program: when they were, force at both ends.
 Table stage_table(const std::vector<StageEntry>& stages);
 /// written() of a template that knows a name and the prefix of its ids: those of a press of a
@@ -70,6 +85,12 @@ Chapter contact_chapter(const RunData& run);
 /// without blocks where a run has no skin, or another one.
 Chapter skin_chapter(const std::vector<RunContact>& runs, const std::string& name = "",
                      std::size_t number = 0);
+/// Where markers are at the last sample that all runs have, and a table over the samples; without
+/// blocks when there are no markers.
+Chapter marker_chapter(const MarkerComparison& markers, const std::string& name = "",
+                       std::size_t number = 0);
+/// Of the continuum and the lattices.
+Chapter marker_chapter(const RunData& run);
 /// Force and contact radius of one press; without blocks when it has no sample. Of a program the
 /// force is drawn to its end, from trace.csv where there is one.
 Chapter press_chapter(const meshes::PressResponse& response,
