@@ -232,17 +232,18 @@ bool is_choice(const Key& key, const std::string& word) {
                              [&](const Choice& choice) { return choice.word == word; });
 }
 
-Value read_word(const Key& key, const toml::node& node) {
+std::string likely_word(const Key& key, const std::string& word) {
   std::vector<std::string> words;
   for (const Choice& choice : key.choices) words.push_back(choice.word);
+  return "did you mean \"" + nearest_word(word, words) + "\"?";
+}
+
+Value read_word(const Key& key, const toml::node& node) {
   const auto* text = node.as_string();
   if (text == nullptr) refuse("must be one of " + key.allowed(), preset_advice(key));
   const std::string& word = text->get();
-  const bool known = std::ranges::find(words, word) != words.end();
-  if (!known && (key.kind == Kind::choice || word.empty())) {
-    refuse("must be one of " + key.allowed(),
-           "did you mean \"" + nearest_word(word, words) + "\"?");
-  }
+  if (!is_choice(key, word) && (key.kind == Kind::choice || word.empty()))
+    refuse("must be one of " + key.allowed(), likely_word(key, word));
   Value value;
   value.word = word;
   return value;
@@ -370,7 +371,15 @@ Reading read(const Key& key, const toml::node& node, const std::filesystem::path
     reading.literal = toml_literal(whole);
   } else if (key.kind == Kind::source || key.kind == Kind::file ||
              (key.kind == Kind::fields && node.is_string())) {
-    if (!value.word.empty() && !is_choice(key, value.word)) locate(value.word);
+    if (!value.word.empty() && !is_choice(key, value.word)) {
+      const std::string word = value.word;
+      locate(value.word);
+      // One word without an extension is rather a slip than a file.
+      if (!key.choices.empty() && word.find_first_of("./") == word.npos &&
+          !std::filesystem::exists(value.word))
+        refuse("must be one of " + key.allowed() + ", and there is no file " + value.word,
+               likely_word(key, word) + " Else name a file that is there");
+    }
     reading.literal = toml_literal(toml::value<std::string>(value.word));
   }
   return reading;

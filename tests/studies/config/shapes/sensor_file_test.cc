@@ -146,6 +146,12 @@ TEST(MarkerGridKeys, AreRefused) {
                      load_config({{}, {"sensor.markers=no_such.csv"}, {}});
                    }),
                    {"sensor.markers", "no_such.csv"}));
+  // A word that is nearly one of the key's, and no file: both are said.
+  EXPECT_TRUE(says(config_refusal([] {
+                     load_config({{}, {"sensor.markers=gird"}, {}});
+                   }),
+                   {"sensor.markers", "none | grid | path of a file", "there is no file", "/gird",
+                    "did you mean \"grid\"?"}));
 }
 
 }  // namespace
