@@ -11,7 +11,8 @@ namespace fingertip::lattice::inline press {
 
 using meshes::Vector3;
 
-MarkerPoints::MarkerPoints(const PressSetup& setup, int sectors, const std::vector<Vector3>& rest) {
+MarkerPoints::MarkerPoints(const PressSetup& setup, int sectors, const std::vector<Vector3>& rest)
+    : rest_(setup.protocol.markers) {
   if (setup.protocol.markers.empty()) return;
   const meshes::CubicGrid grid = tip_grid(setup.geometry, setup.lattice, sectors);
   std::vector<std::uint32_t> particle_at(grid.points(), GridCells::none);
@@ -52,6 +53,17 @@ std::vector<Vector3> MarkerPoints::displacements(
     for (std::size_t c = 0; c < 8; ++c) sum += image.weights[c] * moved(image.corners[c]);
     result.push_back(image.mirror.cwiseProduct(sum));
   }
+  return result;
+}
+
+std::vector<Vector3> MarkerPoints::places(const LatticeModel& model, const State& state,
+                                          double ahead) const {
+  std::vector<Vector3> result = displacements([&](std::uint32_t particle) {
+    const std::uint32_t point = model.particles[particle];
+    return Vector3(model.grid.axes *
+                   (state.displacement.at(point) + ahead * state.velocity.at(point)));
+  });
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] += rest_[i];
   return result;
 }
 

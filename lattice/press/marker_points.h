@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "lattice/model/embedded_points.h"
+#include "lattice/model/model.h"
+#include "lattice/model/state.h"
 #include "lattice/press/press_setup.h"
 
 namespace fingertip::lattice::inline press {
@@ -24,6 +26,9 @@ class MarkerPoints {
   /// Of each marker [m], by that of a particle in the order of `rest`, along the finger's axes.
   std::vector<meshes::Vector3> displacements(
       const std::function<meshes::Vector3(std::uint32_t particle)>& moved) const;
+  /// Of each marker in a lattice that moves [m], world axes; `ahead` [s] at its velocities.
+  std::vector<meshes::Vector3> places(const LatticeModel& model, const State& state,
+                                      double ahead = 0.0) const;
 
  private:
   struct Image {
@@ -31,6 +36,7 @@ class MarkerPoints {
     std::array<double, 8> weights{};
     meshes::Vector3 mirror;  ///< signs of x, y, z
   };
+  std::vector<meshes::Vector3> rest_;  ///< of the markers [m]
   std::vector<Image> images_;
 };
 

@@ -140,20 +140,14 @@ void PressRecorder::note_fields(double indentation) {
 /// For the last row, at its time: velocities lead back to it from the end of the step.
 void PressRecorder::note_markers() {
   if (markers_.empty()) return;
-  const LatticeModel& model = finger_->model();
-  const State& state = finger_->state();
   const RodState& rod = finger_->rod();
   const PressSample& sample = outcome_->response.back();
   const double ahead = sample.time - finger_->time();
-  std::vector<Vector3> displacements = markers_.displacements([&](std::uint32_t particle) {
-    const std::uint32_t point = model.particles[particle];
-    return Vector3(model.grid.axes *
-                   (state.displacement.at(point) + ahead * state.velocity.at(point)));
-  });
+  std::vector<Vector3> displacements = markers_.places(finger_->model(), finger_->state(), ahead);
   for (std::size_t i = 0; i < marked_.size(); ++i) {
     const Vector3 carried = rod.pose() * marked_[i];
     displacements[i] = rod.pose().orientation.inverse() *
-                       (marked_[i] + displacements[i] - carried - ahead * rod.velocity_at(carried));
+                       (displacements[i] - carried - ahead * rod.velocity_at(carried));
   }
   add_sample(meshes::marker_rows(marked_, displacements), int(outcome_->response.samples().size()),
              sample.indentation, outcome_->markers);

@@ -1,7 +1,10 @@
 #include "studies/live/live_view.h"
 
+#include <sys/resource.h>
+
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -39,6 +42,12 @@ PressCondition condition_of(const lattice::PressSetup& setup) {
   return condition;
 }
 
+/// Of this thread and what it starts: the simulation goes first.
+void give_way() {
+  constexpr int this_thread = 0, nice = 10;
+  ::setpriority(PRIO_PROCESS, this_thread, nice);
+}
+
 }  // namespace
 
 double run_live_view(
@@ -57,12 +66,22 @@ double run_live_view(
   LiveServer server(simulation, reference, options.port);
   listener = &server;
   ready(server.url(), reference.remark ? reference.remark->text : "");
+  std::atomic<bool> over = false;
+  std::future<void> beside;
+  if (options.continuum && options.reference.empty())
+    beside = std::async(std::launch::async, [&] {
+      give_way();
+      const meshes::PressResponse curve = options.continuum([&over] { return over.load(); });
+      if (!curve.empty()) server.show_continuum(curve);
+    });
   const auto started = std::chrono::steady_clock::now();
   while (!options.interrupted || !options.interrupted()) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
     if (options.exit_after && elapsed.count() >= *options.exit_after) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
+  over = true;
+  if (beside.valid()) beside.get();
   simulation.stop();  // before the server that its thread wakes is taken down
   return simulation.slowest_factor();
 }

@@ -13,6 +13,9 @@ namespace fingertip::studies::inline live {
 struct LiveOptions {
   int port = 0;                     ///< on 127.0.0.1; 0: a free one
   std::filesystem::path reference;  ///< run folder or response.csv; empty: none
+  /// Without a reference the continuum's press beside this one, computed while the page is served;
+  /// empty where there is none. It ends with what it has when `stop`.
+  std::function<meshes::PressResponse(const std::function<bool()>& stop)> continuum;
   PaceSettings pace;
   std::optional<double> exit_after;   ///< [s] of wall time
   std::function<bool()> interrupted;  ///< asked ten times a second

@@ -117,6 +117,7 @@ Json frame_json(const LiveFrame& frame, std::size_t rows) {
                  {"normal", vector_json(picture.finger.plane.normal)}}},
                {"masses", picture.finger.boundary.size()},
                {"contact", picture.finger.contact.size()},
+               {"markers", picture.markers.size()},
                {"rows", rows}};
   if (picture.measured.contact) {
     json["touching"] = picture.measured.contact->touching;
@@ -247,6 +248,7 @@ std::string encode_scene(const LiveScene& scene) {
                   {"springs", scene.springs},
                   {"period", scene.period},
                   {"reference", scene.reference},
+                  {"reference_name", scene.reference_name},
                   {"remark", scene.remark},
                   {"comparable", scene.comparable},
                   {"units", units_json(scene.units)},
@@ -283,6 +285,8 @@ std::string encode_frame(const LiveFrame& frame, const std::vector<LiveRow>& row
                                double(point.state == meshes::ContactState::slip)})
       append_float(bytes, value);
   }
+  for (const meshes::Vector3& place : frame.picture.markers)
+    for (const double coordinate : place) append_float(bytes, coordinate);
   return bytes;
 }
 

@@ -52,6 +52,7 @@ struct LiveScene {
   double period = 0.0;  ///< of the controller [s]
   /// Indentation [m], normal force and its estimated error [N], NaN where that is not known.
   std::vector<std::array<double, 3>> reference;
+  std::string reference_name;         ///< as its legend has it
   std::vector<double> overlays;       ///< indentations of the continuum's fields [m]
   std::string remark;                 ///< on the reference; empty without any
   UnitSystem units = UnitSystem::si;  ///< the page begins with; it has the others, too
@@ -90,7 +91,8 @@ std::string encode_error(const std::string& text);
 /// A frame: uint32 length of the JSON text, the text padded with blanks so that what follows starts
 /// at a multiple of 4, float32 places (3 per mass) and rows (6 each), a byte per mass that tells
 /// whether the obstacle holds it, bytes up to a multiple of 4, float32 points of the contact (7
-/// each: place, side of a square of its area, pressure, shear, 1 where it slips). Little-endian.
+/// each: place, side of a square of its area, pressure, shear, 1 where it slips) and places of
+/// markers (3 each). Little-endian.
 std::string encode_frame(const LiveFrame& frame, const std::vector<LiveRow>& rows);
 
 }  // namespace fingertip::studies::inline live

@@ -60,6 +60,11 @@ std::unique_ptr<lattice::VirtualFinger> finger_of(const lattice::PressSetup& set
   return std::make_unique<lattice::VirtualFinger>(finger);
 }
 
+lattice::MarkerPoints markers_of(const lattice::PressSetup& setup,
+                                 const lattice::LatticeModel& model) {
+  return {setup, model.sector.count(), lattice::rest_places(model)};
+}
+
 }  // namespace
 
 LiveRig::LiveRig(const lattice::PressSetup& setup)
@@ -67,6 +72,7 @@ LiveRig::LiveRig(const lattice::PressSetup& setup)
       way_(setup_.protocol, setup_.geometry),
       finger_(finger_of(setup_, way_, lattice::moving_sectors(setup_))),
       tip_(std::make_unique<lattice::WholeTip>(setup_, finger_->model())),
+      markers_(markers_of(setup_, finger_->model())),
       limits_(limits_for(setup_)),
       set_point_(setup.protocol.speed, setup.protocol.clearance + setup.protocol.depth,
                  setup.protocol.clearance, setup.controller.period),
@@ -91,6 +97,7 @@ void LiveRig::go_on_with(const lattice::PressSetup& setup, int sectors) {
   lattice::PressSetup next = under_control(setup);
   auto finger = finger_of(next, way_, sectors);
   auto tip = std::make_unique<lattice::WholeTip>(next, finger->model());
+  auto markers = markers_of(next, finger->model());
   lattice::State state = tip_->state_of(finger_->model(), finger_->finger().state());
   if (sectors > 1 || next.lattice.spacing != setup_.lattice.spacing)
     state = lattice::carried_over(tip_->model(), state, finger->model());
@@ -98,6 +105,7 @@ void LiveRig::go_on_with(const lattice::PressSetup& setup, int sectors) {
   loop_->go_on_with(*finger);
   finger_ = std::move(finger);
   tip_ = std::move(tip);
+  markers_ = std::move(markers);
   setup_ = std::move(next);
   estimator_ = lattice::ForceEstimator(at_speed(setup_, settings_.speed));
   ++lattices_;
@@ -210,6 +218,7 @@ LivePicture LiveRig::picture() {
   picture.hand_place = controller_->hand().place();
   picture.force_error = force_error(picture.row, picture.measured);
   picture.finger = tip_->picture(finger_->finger(), picture.row.indentation);
+  picture.markers = markers_.places(finger_->model(), finger_->finger().state());
   return picture;
 }
 

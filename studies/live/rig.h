@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lattice/control/control_loop.h"
+#include "lattice/press/marker_points.h"
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/press_task.h"
 #include "lattice/press/whole_tip.h"
@@ -72,6 +73,7 @@ struct LivePicture {
   double force_error = meshes::unknown;  ///< estimated for a press at the slider's speed [N]
   std::optional<meshes::Vector3> hand_place;
   lattice::FingerPicture finger;
+  std::vector<meshes::Vector3> markers;  ///< where the press's markers are [m]
 };
 
 /// The same press with another spacing [m]; throws InvalidInput for one that it does not allow.
@@ -126,6 +128,7 @@ class LiveRig {
   lattice::PressWay way_;
   std::unique_ptr<lattice::VirtualFinger> finger_;
   std::unique_ptr<lattice::WholeTip> tip_;
+  lattice::MarkerPoints markers_;
   int lattices_ = 1;
   struct Part {
     lattice::PressSetup setup;

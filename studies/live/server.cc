@@ -39,25 +39,45 @@ struct LiveServer::Client {
   std::mutex mutex;  ///< held while writing; guards what follows
   bool open = true;
   Viewer viewer;
+  std::shared_ptr<const Reference> reference;  ///< that it was told
   RateLimit rate{messages_per_second, 2.0 * messages_per_second};
 };
 
 LiveServer::LiveServer(Simulation& simulation, const Reference& reference, int port)
-    : simulation_(simulation), reference_(reference), page_(reference) {
+    : simulation_(simulation),
+      page_(reference),
+      reference_(std::make_shared<const Reference>(reference)) {
   start(port);
   sender_ = std::thread([this] { stream(); });
 }
 
-std::string LiveServer::scene_text(const LiveFrame& frame) const {
+std::shared_ptr<const Reference> LiveServer::reference() const {
+  const std::lock_guard lock(mutex_);
+  return reference_;
+}
+
+void LiveServer::show_continuum(const meshes::PressResponse& response) {
+  {
+    const std::lock_guard lock(mutex_);
+    Reference beside;
+    beside.response = response;
+    beside.name = "continuum";
+    reference_ = std::make_shared<const Reference>(std::move(beside));
+  }
+  simulation_.watched_by(clients());
+}
+
+std::string LiveServer::scene_text(const LiveFrame& frame, const Reference& reference) const {
   LiveScene scene = *frame.scene;
-  if (reference_.remark) {
-    scene.remark = reference_.remark->text;
-    scene.comparable = !reference_.remark->meaningless;
+  if (reference.remark) {
+    scene.remark = reference.remark->text;
+    scene.comparable = !reference.remark->meaningless;
   }
   scene.units = shown_units().system;
-  for (const meshes::PressSample& sample : reference_.response.pressing())
+  scene.reference_name = reference.name;
+  for (const meshes::PressSample& sample : reference.response.pressing())
     scene.reference.push_back({sample.indentation, sample.normal_force, sample.force_error});
-  for (const Overlay& overlay : reference_.overlays) scene.overlays.push_back(overlay.indentation);
+  for (const Overlay& overlay : reference.overlays) scene.overlays.push_back(overlay.indentation);
   return encode_scene(scene);
 }
 
@@ -290,13 +310,15 @@ void LiveServer::stream() {
 }
 
 void LiveServer::send_scene(mg_connection* connection, Client& client, const LiveFrame& frame) {
-  const std::string text = scene_text(frame);
+  client.reference = reference();
+  const std::string text = scene_text(frame, *client.reference);
   client.viewer.shown(frame.scene);
   mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_TEXT, text.data(), text.size());
 }
 
 void LiveServer::send_frame(mg_connection* connection, Client& client, const LiveFrame& frame) {
-  if (!client.viewer.knows(frame.scene)) send_scene(connection, client, frame);
+  if (!client.viewer.knows(frame.scene) || client.reference != reference())
+    send_scene(connection, client, frame);
   const std::string bytes = client.viewer.send(frame, simulation_.rows());
   const int written =
       mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_BINARY, bytes.data(), bytes.size());

@@ -28,12 +28,14 @@ inline constexpr int max_clients = 32;
 class LiveServer {
  public:
   /// `port` 0: a free one. Throws InvalidInput when
-  /// three.js is missing or the port is taken. Simulation and reference must outlive it.
+  /// three.js is missing or the port is taken. The simulation must outlive it.
   LiveServer(Simulation& simulation, const Reference& reference, int port);
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;
 
+  /// The continuum's press beside this one, which was not known before; of use without a reference.
+  void show_continuum(const meshes::PressResponse& response);
   /// To be called after each new frame, from any thread.
   void frame_ready();
   int port() const { return port_; }
@@ -53,20 +55,21 @@ class LiveServer {
   void forget(const mg_connection* connection);
   std::shared_ptr<Client> client(const mg_connection* connection) const;
   void stream();
-  std::string scene_text(const LiveFrame& frame) const;
+  std::shared_ptr<const Reference> reference() const;
+  std::string scene_text(const LiveFrame& frame, const Reference& reference) const;
   void send_scene(mg_connection* connection, Client& client, const LiveFrame& frame);
   void send_frame(mg_connection* connection, Client& client, const LiveFrame& frame);
   void say_goodbye();
   void stop();
 
   Simulation& simulation_;
-  const Reference& reference_;
   PageServer page_;
   mg_context* context_ = nullptr;
   int port_ = 0;
   std::unique_ptr<Access> access_;
 
-  mutable std::mutex mutex_;  ///< guards clients_, work_, stopping_
+  mutable std::mutex mutex_;  ///< guards reference_, clients_, work_, stopping_
+  std::shared_ptr<const Reference> reference_;
   std::condition_variable wake_;
   ClientMap clients_;
   bool work_ = false, stopping_ = false;

@@ -38,6 +38,7 @@ PageSession::PageSession(const WebPress& press)
 void PageSession::show(const std::shared_ptr<const LiveScene>& scene) {
   LiveScene complete = *scene;
   complete.units = press_.units;
+  complete.reference_name = "continuum";
   for (const WebSample& sample : press_.reference)
     complete.reference.push_back({sample.indentation, sample.normal_force, sample.force_error});
   answers_.push_back({true, encode_scene(complete)});

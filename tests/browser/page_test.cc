@@ -44,6 +44,7 @@ class LivePage : public testing::Test {
   virtual lattice::PressSetup press() const {
     lattice::PressSetup setup = coarse_press();
     setup.protocol.depth = 3e-3;
+    setup.protocol.markers = {{0.0, 0.0, 9e-3}, {4e-3, 0.0, 6e-3}};
     return setup;
   }
   void SetUp() override {
@@ -317,6 +318,40 @@ TEST_F(LivePage, TheHandPullsTheRodAndFeelsIt) {
   EXPECT_GT((held->picture.finger.endpoint - start).norm(), 1e-3);
   page_->release_mouse();
   ASSERT_TRUE(page_->wait_for("document.getElementById('hand-force').textContent === '–'"));
+}
+
+/// However long the finger has rested, on an axis from zero to the depth.
+TEST_F(LivePage, ShowsTheWholePressFromZeroToItsDepth) {
+  EXPECT_EQ(page_->evaluate("fingertipPage.forcePlot.range(0)"), nlohmann::json({0, 3}));
+  const nlohmann::json kept = page_->evaluate(R"((() => {
+    const rows = [];
+    for (let i = 0; i < 100000; ++i) rows.push([1e-3 * i, Math.min(3e-3, 1e-5 * i), 0.2 * Math.min(1, i / 300) ** 1.5]);
+    const some = Page.thinned(rows, 2000);
+    return [some.length, some.filter((row) => row[1] < 3e-3).length, some[0][0], some[some.length - 1][0]];
+  })())");
+  EXPECT_LE(kept[0], 2001);
+  EXPECT_GT(kept[1], 200);
+  EXPECT_EQ(kept[2], 0.0);
+  EXPECT_NEAR(kept[3].get<double>(), 99.999, 1e-9);
+}
+
+TEST_F(LivePage, ShowsMarkersAndAContinuumThatComesLater) {
+  EXPECT_EQ(page_->evaluate("document.getElementById('marker-legend').hidden"), false);
+  EXPECT_NEAR(double(page_->evaluate(
+                  "fingertipPage.scene.markers.geometry.attributes.position.array[5]")),
+              0.6, 1e-6);
+  studies::Reference later = small_reference();
+  later.response.append([] {
+    meshes::PressSample sample;
+    sample.indentation = 5e-3;
+    sample.normal_force = 0.5;
+    return sample;
+  }());
+  const auto samples = later.response.samples().size();
+  server_->show_continuum(later.response);
+  ASSERT_TRUE(page_->wait_for(
+      fmt::format("fingertipPage.about.reference.length === {}", samples)));
+  EXPECT_TRUE(page_->wait_for("fingertipPage.forcePlot.series[0].label === 'continuum'"));
 }
 
 TEST_F(LivePage, ComesBackAfterAReload) {

@@ -11,18 +11,42 @@
 #include "studies/cli/verbs/verbs.h"
 #include "studies/config/asked_units.h"
 #include "studies/config/finger_defaults.h"
+#include "studies/files/places.h"
 #include "studies/jobs/interrupt.h"
 #include "studies/presses/force_error.h"
 #include "studies/presses/pace_trial.h"
 #include "studies/presses/press_setup.h"
+#include "studies/presses/reference_job.h"
 
 namespace fingertip::studies::inline cli::inline verbs {
 
 namespace {
 
-/// Slowest half second, as told by run_live_view.
-double serve(const CommandLine& line, const lattice::PressSetup& setup, const SetupAt& coarser) {
+/// The continuum's press beside this one, where a lattice's errors come from it and it need not be
+/// built first.
+std::function<meshes::PressResponse(const std::function<bool()>& stop)> continuum_of(
+    const LoadedConfig& loaded) {
+  const Cache cache(cache_folder());
+  const ErrorSource source = source_at_hand(loaded, cache);
+  if (!source.continuum || !(std::filesystem::exists(reference_program()) ||
+                             cache.keeps(reference_job(*source.continuum))))
+    return {};
+  return [cache, job = *source.continuum](const std::function<bool()>& stop) {
+    try {
+      return pressed(job, cache, stop);
+    } catch (const meshes::Interrupted&) {
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "fingertip: note: no continuum beside the press: {}\n", error.what());
+    }
+    return meshes::PressResponse();
+  };
+}
+
+/// Slowest half second, as told by run_live_view. `loaded`: what `setup` was made of.
+double serve(const CommandLine& line, const LoadedConfig& loaded, const lattice::PressSetup& setup,
+             const SetupAt& coarser) {
   LiveOptions options;
+  options.continuum = continuum_of(loaded);
   options.port = line.port;
   options.reference = line.reference;
   options.pace = {!line.running, line.rate, coarser};
@@ -60,7 +84,7 @@ int serve_in_real_time(const CommandLine& line) {
   const auto served = [&] {
     if (!line.quiet && run.record.force_error)
       fmt::print("{}\n", error_words(*run.record.force_error));
-    run.record.slowest_factor = serve(line, setup, coarser);
+    run.record.slowest_factor = serve(line, loaded, setup, coarser);
     tell_slowest(line, run.record.slowest_factor);
     return 0;
   };
@@ -93,12 +117,13 @@ void tell_expected(const lattice::PressSetup& setup) {
 
 /// As it was asked for, however slow.
 int serve_as_asked(const CommandLine& line, const LoadedConfig& asked) {
-  const LoadedConfig loaded = at_pace(with_sets(asked, as_a_person_presses()));
-  const lattice::PressSetup setup = press_setup(with_material(loaded, LatticeUse::press));
+  const LoadedConfig loaded =
+      with_material(at_pace(with_sets(asked, as_a_person_presses())), LatticeUse::press);
+  const lattice::PressSetup setup = press_setup(loaded);
   if (const std::string note = spacing_note(loaded); !note.empty())
     fmt::print(stderr, "fingertip: note: {}\n", note);
   if (!line.quiet) tell_expected(setup);
-  tell_slowest(line, serve(line, setup, {}));
+  tell_slowest(line, serve(line, loaded, setup, {}));
   return 0;
 }
 

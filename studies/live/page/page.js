@@ -55,15 +55,34 @@ class Page {
     const held = new Uint8Array(buffer, 4 + length + 12 * frame.masses + 4 * rowLength * frame.rows, frame.masses);
     const end = held.byteOffset + frame.masses;
     const contact = new Float32Array(buffer, end + (4 - end % 4) % 4, contactLength * frame.contact);
+    const markers = new Float32Array(buffer, contact.byteOffset + contact.byteLength, 3 * frame.markers);
     this.frame = frame;
     if (frame.epoch !== this.epoch) { this.rows = []; this.epoch = frame.epoch; }
     for (let i = 0; i < rows.length; i += rowLength) this.rows.push(rows.slice(i, i + rowLength));
-    if (this.rows.length > mostPoints) this.rows = this.rows.filter((_, i) => i % 2 === 1);
+    if (this.rows.length > mostPoints) this.rows = Page.thinned(this.rows, mostPoints / 2);
     this.rescale(frame);
     this.scene.update(frame, places, held);
     this.scene.paintContact(frame.plane.normal, contact);
+    this.scene.paintMarkers(markers);
+    element('marker-legend').hidden = markers.length === 0;
     this.tellContact(contact);
     this.redraw(frame.number);
+  }
+
+  /// So many rows, the ends among them, as far apart as can be in time, indentation and force: however
+  /// long a finger rests, how it was pressed stays.
+  static thinned(rows, most) {
+    const place = new Float64Array(rows.length);
+    for (const k of [0, 1, 2]) {
+      const way = (i) => Math.abs(rows[i][k] - rows[i - 1][k]);
+      let whole = 0, soFar = 0;
+      for (let i = 1; i < rows.length; ++i) whole += way(i);
+      for (let i = 1; i < rows.length && whole > 0; ++i) { soFar += way(i); place[i] += soFar / whole; }
+    }
+    const step = place[rows.length - 1] / (most - 1);
+    const some = [rows[0]];
+    for (let i = 1; i < rows.length; ++i) if (i === rows.length - 1 || place[i] >= step * some.length) some.push(rows[i]);
+    return some;
   }
 
   /// Of what the scene paints: the scale's end, and how much of the area slips.
@@ -238,6 +257,11 @@ class Page {
   drawPlots(frame) {
     const length = Units.factor('length'), force = Units.factor('force'), speed = Units.factor('speed');
     const { rows, about } = this;
+    // From zero to where the finger is to go, or has been.
+    let deepest = Math.max(frame.settings.depth, 1e-5);
+    for (const row of rows) deepest = Math.max(deepest, row[1]);
+    this.forcePlot.across = this.errorPlot.across = [0, deepest * length];
+    this.forcePlot.series[0].label = about.reference_name || 'reference';
     this.forcePlot.series[0].points = about.reference.map(([x, y, e]) => [x * length, y * force, e * force]);
     this.forcePlot.series[1].points = rows.map((row) => [row[1] * length, row[2] * force]);
     const first = about.comparable && about.reference.length > 0 ? about.reference[0][0] : Infinity;

@@ -73,6 +73,7 @@ class Plot {
     this.series = series.map((one) => ({ ...one, points: [] }));
     this.leastSpan = 0;
     this.includeZero = true;
+    this.across = null;  // of the horizontal axis; null: that of the points
   }
 
   static steps(from, to, count) {
@@ -85,10 +86,11 @@ class Plot {
   }
 
   range(k) {
+    if (k === 0 && this.across) return this.across;
     let least = Infinity, most = -Infinity;
     for (const { points } of this.series) {
       for (const point of points) {
-        if (!Number.isFinite(point[k])) continue;
+        if (!Number.isFinite(point[k]) || (this.across && (point[0] < this.across[0] || point[0] > this.across[1]))) continue;
         if (point[k] < least) least = point[k];
         if (point[k] > most) most = point[k];
       }

@@ -25,7 +25,7 @@ class FingerScene {
   }
 
   build(scene) {
-    for (const old of [this.tip, this.rod, this.plane, this.forceArrow, this.torqueArrow, this.handLine, this.pressed, this.slipping]) {
+    for (const old of [this.tip, this.rod, this.plane, this.forceArrow, this.torqueArrow, this.handLine, this.pressed, this.slipping, this.markers]) {
       if (old) this.discard(old);
     }
     this.geometry = scene.geometry;
@@ -34,7 +34,12 @@ class FingerScene {
     this.buildPlane(scene.obstacle);
     this.pressed = FingerScene.spots(FingerScene.disc(), true);
     this.slipping = FingerScene.spots(FingerScene.disc(5), false);
-    this.scene.add(this.pressed, this.slipping);
+    this.markers = FingerScene.spots(FingerScene.disc(), false);
+    this.markers.material.size = 6;
+    this.markers.material.sizeAttenuation = false;
+    this.markers.material.depthTest = false;  // those inside are to be seen, too
+    this.markers.renderOrder = 1;
+    this.scene.add(this.pressed, this.slipping, this.markers);
     this.mostPressure = 0;
     this.forceArrow = FingerScene.arrow(1);
     this.torqueArrow = FingerScene.arrow(2);
@@ -184,6 +189,7 @@ class FingerScene {
     this.heldColour = this.colour('--held');
     this.lowColour = this.colour('--low');
     this.slipping.material.color = this.colour('--slip');
+    this.markers.material.color = this.colour('--marker');
     for (const overlay of this.overlays) overlay.lines.material.color = this.colour('--continuum');
     this.paintMasses();
   }
@@ -297,6 +303,12 @@ class FingerScene {
     this.pressed.material.size = 1.1 * size;
     this.slipping.material.size = 0.8 * size;
     for (const spots of [this.pressed, this.slipping]) spots.visible = spots.geometry.attributes.position.count > 0;
+  }
+
+  /// Three numbers per marker: its place [m].
+  paintMarkers(markers) {
+    this.markers.geometry.setAttribute('position', new THREE.BufferAttribute(markers.map((x) => this.scale * x), 3));
+    this.markers.visible = markers.length > 0;
   }
 
   arrowTip(arrow, values, unit) {

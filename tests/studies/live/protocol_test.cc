@@ -34,6 +34,7 @@ LiveFrame small_frame() {
   point.shear = {3.0, -4.0, 0.0};
   point.state = meshes::ContactState::slip;
   frame.picture.finger.contact = {point};
+  frame.picture.markers = {{0.7, 0.8, 0.9}};
   return frame;
 }
 
@@ -97,7 +98,8 @@ TEST(Protocol, FramesAreLaidOutAsTheReadmeSays) {
   EXPECT_EQ(json.at("normal_force"), 0.25);
   EXPECT_FALSE(json.contains("hand"));
   EXPECT_EQ(json.at("contact"), 1);
-  ASSERT_EQ(bytes.size(), 4 + length + 2 * 12 + 24 + 4 + 28);
+  EXPECT_EQ(json.at("markers"), 1);
+  ASSERT_EQ(bytes.size(), 4 + length + 2 * 12 + 24 + 4 + 28 + 12);
   std::vector<float> numbers(12);
   std::memcpy(numbers.data(), bytes.data() + 4 + length, 48);
   EXPECT_EQ(numbers[2], 0.3f);
@@ -105,8 +107,11 @@ TEST(Protocol, FramesAreLaidOutAsTheReadmeSays) {
   EXPECT_EQ(numbers[8], 0.25f);
   EXPECT_EQ(bytes[4 + length + 49], 1);
   std::vector<float> contact(7);
-  std::memcpy(contact.data(), bytes.data() + bytes.size() - 28, 28);
+  std::memcpy(contact.data(), bytes.data() + bytes.size() - 40, 28);
   EXPECT_EQ(contact, (std::vector<float>{0.4f, 0.5f, 0.6f, 2e-3f, 700.0f, 5.0f, 1.0f}));
+  std::vector<float> marker(3);
+  std::memcpy(marker.data(), bytes.data() + bytes.size() - 12, 12);
+  EXPECT_EQ(marker, (std::vector<float>{0.7f, 0.8f, 0.9f}));
 }
 
 TEST(Protocol, TellsTheLimitsOfAContactForceWhereOneIsHeld) {

@@ -252,6 +252,7 @@ lattice::PressSetup at_spacing(double spacing) {
 TEST(LiveRig, MovesAQuarterUntilTheHandTakesTheRod) {
   lattice::PressSetup whole = coarse_press();
   whole.time_step = 1e-5;  // the longest stable one is another for a part
+  whole.protocol.markers = {{0.0, 0.0, 10e-3}, {-3e-3, 2e-3, 8e-3}, {6e-3, -5e-3, 0.0}};
   LiveRig rig(whole);
   EXPECT_EQ(rig.sectors(), 4);
   whole.symmetry = false;
@@ -264,12 +265,19 @@ TEST(LiveRig, MovesAQuarterUntilTheHandTakesTheRod) {
     EXPECT_EQ(a.finger.held, b.finger.held);
     for (std::size_t i = 0; i < a.finger.boundary.size(); ++i)
       EXPECT_LT((a.finger.boundary[i] - b.finger.boundary[i]).norm(), allowed * 1e-3);
+    ASSERT_EQ(a.markers.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LT((a.markers[i] - b.markers[i]).norm(), allowed * 1e-3);
   };
   while (rig.row().indentation < 0.8e-3) {
     rig.advance();
     other.advance();
   }
   expect_same(1e-7);
+  // The pole's is where the plane holds it, the sleeve's has gone on with the rod.
+  const LivePicture now = rig.picture();
+  EXPECT_NEAR(now.finger.plane.gap(now.markers[0]), 0.0, 0.15e-3);
+  EXPECT_NEAR(now.markers[2].z(), now.finger.rod.position.z(), 0.1e-3);
   const Vector3 place = other.picture().measured.pose.position + Vector3(0.5e-3, 0.0, 0.0);
   rig.hold(place);
   other.hold(place);
