@@ -87,12 +87,14 @@ void check_parameters(const std::vector<MaterialParameter>& parameters,
 }  // namespace
 
 ScaledModel::ScaledModel(Solver solver, std::vector<MaterialParameter> parameters,
-                         const meshes::Rubber& held, double lowest_ratio, Use use)
+                         const meshes::Rubber& held, double lowest_ratio, Use use,
+                         Interpolation interpolation)
     : solver_(std::move(solver)),
       parameters_(std::move(parameters)),
       held_(held),
       lowest_ratio_(lowest_ratio),
-      use_(use) {
+      use_(use),
+      interpolation_(interpolation) {
   check_parameters(parameters_, held_);
 }
 
@@ -162,7 +164,8 @@ ScaledModel::Answer ScaledModel::at(double nu) {
   VectorXd errors(known.rows());
   for (Index i = 0; i < known.rows(); ++i) {
     RowVectorXd y = known.row(i);
-    const bool positive = y.minCoeff() > 0.0;  // else it has no logarithm
+    const bool positive = interpolation_ == Interpolation::logarithmic &&
+                          y.minCoeff() > 0.0;  // else it has no logarithm
     if (positive) y = y.array().log();
     const double value = y * weights.value;
     answer.value(i) = positive ? std::exp(value) : value;

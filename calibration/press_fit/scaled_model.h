@@ -31,12 +31,15 @@ class ScaledModel final : public ForwardModel {
   using Solver = std::function<std::vector<Eigen::VectorXd>(const std::vector<double>&)>;
   /// `near_one_ratio`: nobody searches, four nodes about the ratio that is asked first suffice.
   enum class Use { search, near_one_ratio };
+  /// Between ratios: of logarithms where all values are positive, or of the values themselves.
+  enum class Interpolation { logarithmic, plain };
 
   /// `parameters`: youngs_modulus, shear_modulus or both; or lame_shear, lambda or both; or
   /// modulus; in the order of `evaluate`. What is not among them has its value from `held`. The
   /// solver is not asked below `lowest_ratio`. Throws InvalidInput for other parameters.
   ScaledModel(Solver solver, std::vector<MaterialParameter> parameters, const meshes::Rubber& held,
-              double lowest_ratio = -0.9, Use use = Use::search);
+              double lowest_ratio = -0.9, Use use = Use::search,
+              Interpolation interpolation = Interpolation::logarithmic);
 
   /// Throws InvalidInput for moduli that are not positive and for a Poisson's ratio below the
   /// lowest or above `highest_ratio`, and what the solver throws; of the first nodes those where it
@@ -73,6 +76,7 @@ class ScaledModel final : public ForwardModel {
   meshes::Rubber held_;
   double lowest_ratio_;
   Use use_;
+  Interpolation interpolation_;
   std::map<int, Eigen::VectorXd> nodes_;  ///< phi at u = node/8
   Eigen::VectorXd held_forces_;  ///< phi at the ratio of `held_`, where it is held; else empty
 };

@@ -24,8 +24,13 @@ bool sets_key(const CaseRun& run, const std::string& key) {
 
 const std::vector<RunKind>& run_kinds() {
   static const std::vector<RunKind> kinds = {
-      {"run", "", "", false, {"verb", "beside", "varied", "when", "times", "exhibit"}},
-      {"variant", "press", "variants", true, {"beside", "snapshots"}},
+      {"run",
+       "",
+       "",
+       false,
+       {"verb", "beside", "varied", "when", "times", "exhibit", "displacements", "compression",
+        "slip"}},
+      {"variant", "press", "variants", true, {"beside", "displacements", "snapshots"}},
       {"fit", "fit", "fits", true, {}},
       {"prediction", "press", "", true, {}},  // below each fit
       {"press", "press", "presses", false, {"beside", "continuum", "snapshots"}},

@@ -35,16 +35,25 @@ bool is_derived(const std::string& key, const std::string& kind) {
 
 const std::map<std::string, std::string CaseRun::*>& run_texts() {
   static const std::map<std::string, std::string CaseRun::*> texts = {
-      {"name", &CaseRun::name},     {"series", &CaseRun::series}, {"verb", &CaseRun::verb},
-      {"beside", &CaseRun::beside}, {"varied", &CaseRun::varied}, {"when", &CaseRun::when},
-      {"law", &CaseRun::law},       {"test", &CaseRun::test}};
+      {"name", &CaseRun::name},
+      {"series", &CaseRun::series},
+      {"verb", &CaseRun::verb},
+      {"beside", &CaseRun::beside},
+      {"varied", &CaseRun::varied},
+      {"when", &CaseRun::when},
+      {"law", &CaseRun::law},
+      {"test", &CaseRun::test},
+      {"displacements", &CaseRun::displacements}};
   return texts;
 }
 
 const std::map<std::string, bool CaseRun::*>& run_flags() {
-  static const std::map<std::string, bool CaseRun::*> flags = {{"continuum", &CaseRun::continuum},
-                                                               {"snapshots", &CaseRun::snapshots},
-                                                               {"exhibit", &CaseRun::exhibit}};
+  static const std::map<std::string, bool CaseRun::*> flags = {
+      {"continuum", &CaseRun::continuum},
+      {"snapshots", &CaseRun::snapshots},
+      {"exhibit", &CaseRun::exhibit},
+      {"compression", &CaseRun::compression},
+      {"slip", &CaseRun::slip}};
   return flags;
 }
 
@@ -131,6 +140,11 @@ class CaseReader {
               "complete the entry");
   }
 
+  /// A file is relative to the folder of the case.
+  std::string located(const std::string& path) const {
+    return fs::absolute(file_.parent_path() / path).lexically_normal();
+  }
+
   template <class Reader>
   void each(const toml::table& table, const std::string& name, const Reader& reader) {
     const auto* list = table[name].as_array();
@@ -200,6 +214,8 @@ class CaseReader {
     if (kind.verb.empty() && std::ranges::find(run_verbs(), run.verb) == run_verbs().end())
       problem_of("verb", run.verb, "must say what is run",
                  "use one of " + fmt::format("{}", fmt::join(run_verbs(), ", ")));
+    if (run.verb == "displacements" && run.displacements.empty())
+      problem_of("displacements", "", "must name the file that is fitted", "give it");
     if (!run.law.empty() && !calibration::law_named(run.law))
       problem_of("law", run.law, "must be a law of calibration.laws", "name one of those fitted");
     if (!run.when.empty() && run.when != "coarser" && run.when != "another")
@@ -215,6 +231,7 @@ class CaseReader {
     const bool own = kind.entries.contains(name);
     if ((own || common) && run_texts().contains(name)) {
       run.*run_texts().at(name) = text(node, key);
+      if (name == "displacements") run.displacements = located(run.displacements);
     } else if (own && run_flags().contains(name)) {
       const std::optional<bool> value = node.value_exact<bool>();
       if (!value)

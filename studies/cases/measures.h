@@ -31,6 +31,17 @@ Members members(const RunResults& results, std::string_view kind, const std::str
 /// Names of the series of a kind of runs, in the order of their first runs, without the empty one.
 std::vector<std::string> series_names(const RunResults& results, std::string_view kind);
 
+/// A field of displacements beside measured ones.
+struct Displaced {
+  std::string name;    ///< of the press, or "continuum" with its strain
+  std::string folder;  ///< of its run
+  const DisplacementFile* measured = nullptr;
+  const std::vector<calibration::DisplacementDistance>* distances = nullptr;  ///< per sample
+};
+
+/// Of every press that names measured displacements, and once of each continuum beside them.
+std::vector<Displaced> displaced(const Members& variants);
+
 /// A series of variants as numbers. NaN where a press is missing or there is too little to tell.
 struct SeriesMeasures {
   double worst_error = 0.0;   ///< largest |error| of all its presses

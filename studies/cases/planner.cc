@@ -7,11 +7,14 @@
 #include <utility>
 
 #include "lattice/press/setup_fields.h"
+#include "meshes/base/files.h"
+#include "meshes/press/markers.h"
 #include "meshes/tables/fields_json.h"
 #include "studies/cases/measures.h"
 #include "studies/config/finger_defaults.h"
 #include "studies/config/keys/key_table.h"
 #include "studies/files/read_fields.h"
+#include "studies/fits/runs/displacement_job.h"
 #include "studies/fits/runs/law_job.h"
 #include "studies/fits/runs/moduli_job.h"
 #include "studies/presses/grasp_job.h"
@@ -64,13 +67,16 @@ calibration::FitFile fit_in(const JsonEntry& file) {
 
 void read_summary(const fs::path& place, RunResult& result) {
   const std::string& verb = result.run->verb;
-  const fs::path file = place / (verb == "fit"    ? "calibration.json"
-                                 : verb == "laws" ? "laws.json"
-                                                  : "summary.json");
+  const fs::path file = place / (verb == "fit"             ? "calibration.json"
+                                 : verb == "laws"          ? "laws.json"
+                                 : verb == "displacements" ? "displacements.json"
+                                                           : "summary.json");
   if (!fs::exists(file)) return;
   if (verb == "press") result.press = struct_of<PressSummary>(read_entry(file));
   if (verb == "grasp") result.grasp = struct_of<GraspSummary>(read_entry(file));
   if (verb == "fit") result.found = fit_in(read_entry(file));
+  if (verb == "displacements")
+    result.ratio = struct_of<calibration::DisplacementFitFile>(read_entry(file));
   if (verb == "laws") result.laws = struct_of<calibration::LawsFile>(read_entry(file));
 }
 
@@ -95,6 +101,20 @@ bool is_drawn(const CaseRun& run) {
   return run.is("variant") && run.snapshots;
 }
 
+/// The measured points are the press's markers, and its samples those that were measured.
+void put_markers(const DisplacementFile& measured, const meshes::Geometry& geometry,
+                 const std::string& place, meshes::PressProtocol& protocol) {
+  for (const calibration::MeasuredDisplacements& sample : measured.samples)
+    if (std::ranges::find(protocol.samples, sample.indentation) == protocol.samples.end())
+      throw ConfigError({"press.samples", "",
+                         "displacements were measured at " + meshes::to_text(sample.indentation) +
+                             " m, where no sample is",
+                         "put it among the samples", place});
+  if (const auto broken = meshes::marker_violations(measured.places, geometry); !broken.empty())
+    throw ConfigError(broken);
+  protocol.markers = measured.places;
+}
+
 /// Continua first, then the longest, so that the workers end together.
 void sort(std::vector<PlannedJob>& jobs) {
   std::ranges::stable_sort(jobs, std::greater(), [](const PlannedJob& planned) {
@@ -114,8 +134,8 @@ std::string as_folder(std::string text) {
 }
 
 const std::vector<std::string>& run_verbs() {
-  static const std::vector<std::string> verbs = {"press", "reference", "verification", "moduli",
-                                                 "cubes"};
+  static const std::vector<std::string> verbs = {"press",  "reference", "verification",
+                                                 "moduli", "cubes",     "displacements"};
   return verbs;
 }
 
@@ -160,12 +180,21 @@ void Planner::add(const CaseRun& run) {
 void Planner::add_press(const LoadedConfig& loaded, RunResult& result) {
   const CaseRun& run = *result.run;
   result.setup = press_setup(loaded);
+  if (!run.displacements.empty()) {
+    result.displacements.measured = measured(run);
+    put_markers(*result.displacements.measured, result.setup.geometry, run.place,
+                result.setup.protocol);
+  }
   const bool at_rest = result.setup.protocol.mode == meshes::DriveMode::equilibrium;
   if (run.is("press") && at_rest)
     throw ConfigError({"press.mode", "static", "a press under a controller takes time",
                        "choose pid, or a case with variants"});
-  if (run.is("variant") && run.beside.empty())
-    result.against = continuum_of(continuum_beside(loaded, result.setup.lattice.kinematics));
+  if (run.is("variant") && run.beside.empty()) {
+    fem_reference::ReferenceJob reference =
+        continuum_beside(loaded, result.setup.lattice.kinematics);
+    if (!result.displacements.empty()) reference.protocol.markers = result.setup.protocol.markers;
+    result.against = continuum_of(reference);
+  }
   if (run.is("press") && run.continuum) result.against = continuum_of(continuum_at_speed(loaded));
   for (std::size_t i = 0; i < results_.size() && !run.beside.empty(); ++i) {
     const CaseRun& other = *results_[i].run;
@@ -177,6 +206,29 @@ void Planner::add_press(const LoadedConfig& loaded, RunResult& result) {
     // One finger, two ways to write it: the other one's continuum is its own.
     if (run.is("variant")) result.against = results_[i].against;
   }
+}
+
+std::shared_ptr<const DisplacementFile> Planner::measured(const CaseRun& run) {
+  std::shared_ptr<const DisplacementFile>& file = measured_[run.displacements];
+  if (!file) file = std::make_shared<const DisplacementFile>(read_displacements(run.displacements));
+  return file;
+}
+
+/// Poisson's ratio from what was measured, by the continuum or the lattice: calibration.forward.
+DisplacementFitInput Planner::displacements_of(const LoadedConfig& loaded, const CaseRun& run) {
+  DisplacementFitInput input;
+  input.measured = *measured(run);
+  input.place = "ratios/" + as_folder(run.name);
+  input.by_lattice = loaded.config.calibration.forward == ForwardKind::lattice;
+  input.freed = {run.compression, run.slip};
+  if (input.by_lattice)
+    input.press = press_setup(loaded);
+  else
+    input.continuum = continuum_beside(loaded, lattice::Kinematics::finite);
+  const meshes::Geometry& geometry = loaded.config.press.geometry;
+  put_markers(input.measured, geometry, run.place,
+              input.by_lattice ? input.press.protocol : input.continuum.protocol);
+  return input;
 }
 
 /// taxels.csv stands in the folder of a job, which does not know of it.
@@ -222,6 +274,7 @@ Job Planner::job_of(const LoadedConfig& loaded, RunResult& result) {
   if (verb == "reference") return reference_job(continuum_setup(loaded));
   if (verb == "laws") return law_job(laws_of(loaded, *result.run));
   if (verb == "verification") return verification_job();
+  if (verb == "displacements") return displacement_job(displacements_of(loaded, *result.run));
   if (verb == "moduli")
     return moduli_job(config.press.rubber, fit_options(loaded, config.press.lattice.model));
   const auto constants_of = [&](const char* model) {
@@ -325,6 +378,9 @@ RunResults Planner::results(const fs::path& folder, const std::vector<JobResult>
           response_in(place),
           result.against.empty() ? meshes::PressResponse() : response_in(folder / result.against),
           verdict ? verdict_depths(protocol.depth) : protocol.samples);
+    if (!result.displacements.empty())
+      result.displacements =
+          compare_displacements(result.displacements.measured, place, folder / result.against);
     const RunResult& other = results[result.beside];
     if (&other != &result)
       result.change = compare_forces(response_in(place), response_in(folder / other.folder),

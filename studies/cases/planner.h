@@ -11,6 +11,7 @@
 
 #include "studies/cases/run_result.h"
 #include "studies/fits/runs/calibration_stages.h"
+#include "studies/fits/runs/displacement_job.h"
 #include "studies/jobs/session.h"
 
 namespace fingertip::studies::inline cases {
@@ -53,6 +54,8 @@ class Planner {
 
   void add(const CaseRun& run);
   void add_press(const LoadedConfig& loaded, RunResult& result);
+  std::shared_ptr<const DisplacementFile> measured(const CaseRun& run);
+  DisplacementFitInput displacements_of(const LoadedConfig& loaded, const CaseRun& run);
   void keep_skin(const RunResult& result, const std::string& folder);
   void add_fit(const LoadedConfig& loaded, RunResult result);
   void add_prediction(const CaseRun& prediction, const RunResult& fit);
@@ -72,6 +75,7 @@ class Planner {
   bool predicted_ = false;
   std::map<std::string, std::string> folder_of_key_;
   std::set<std::string> folders_;
+  std::map<std::string, std::shared_ptr<const DisplacementFile>> measured_;  ///< by their paths
   std::map<std::string, std::string> skins_;  ///< of folders with a taxels.csv, as text
 };
 

@@ -50,6 +50,7 @@ double relative_error(double value, double wanted) {
 Roles roles_of(const CaseRun& run) {
   Roles all = {run.is("run") ? "run " + run.verb : run.kind};
   if (run.is("variant") && run.snapshots) all.emplace_back("drawn");
+  if (!run.displacements.empty()) all.emplace_back("displaced");
   if (run.is("press") && run.continuum) all.emplace_back("beside continuum");
   if (!run.is("run") && !run.beside.empty()) all.emplace_back("beside press");
   return all;
@@ -252,6 +253,31 @@ RunMeasure of_held_back(const char* name,
           }};
 }
 
+/// How far the case's Poisson's ratio lies outside of the interval from displacements; 0 inside.
+double ratio_outside(const Evidence& run) {
+  const calibration::DisplacementFitFile& fit = run.result.ratio;
+  const double truth = run.rubber().poissons_ratio();
+  if (std::isnan(fit.poissons_ratio)) return meshes::unknown;
+  return std::max({fit.lower - truth, truth - fit.upper, 0.0});
+}
+
+using calibration::DisplacementDistance;
+
+/// Of a press whose displacements were measured.
+RunMeasure of_displacements(const char* name,
+                            std::function<double(const DisplacementComparison&)> take) {
+  return {name, {"displaced"}, [take](const Evidence& run) {
+            const DisplacementComparison& found = run.result.displacements;
+            return found.empty() ? meshes::unknown : take(found);
+          }};
+}
+
+auto rms_of(std::vector<DisplacementDistance> DisplacementComparison::*samples) {
+  return [samples](const DisplacementComparison& found) {
+    return largest_of_samples(found.*samples, &DisplacementDistance::rms);
+  };
+}
+
 std::vector<RunMeasure> all_measures() {
   using R = const Evidence&;
   using lattice::TraceRow;
@@ -299,6 +325,15 @@ std::vector<RunMeasure> all_measures() {
       of_contact("taxel_error", [](const ContactErrors& e) { return e.taxels; }),
       of_contact("skin_force_error", [](const ContactErrors& e) { return e.skin_force; }),
       of_contact("hertz_error", [](const ContactErrors& e) { return e.hertz; }),
+      {"poissons_ratio_outside", {"run displacements"}, ratio_outside},
+      of_displacements("displacement_rms", rms_of(&DisplacementComparison::press)),
+      of_displacements("displacement_largest",
+                       [](const DisplacementComparison& found) {
+                         return largest_of_samples(found.press, &DisplacementDistance::largest);
+                       }),
+      of_displacements("continuum_displacement_rms", rms_of(&DisplacementComparison::reference)),
+      of_displacements("displacement_excess", displacement_excess),
+      of_displacements("displacement_over_scatter", displacement_over_scatter),
       {"held", {"grasp"}, [](R run) { return is_held(run) ? 1.0 : 0.0; }},
       {"lost", {"grasp"}, [](R run) { return is_held(run) ? 0.0 : 1.0; }},
       {"surplus",

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/displacement_fit_file.h"
 #include "calibration/files/fit_file.h"
 #include "calibration/material_tests/law_record.h"
 #include "studies/cases/case_file.h"
 #include "studies/cases/contact_measures.h"
+#include "studies/cases/displacement_measures.h"
 #include "studies/cases/force_comparison.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/files/press_summary.h"
@@ -32,9 +34,11 @@ struct RunResult {
   PressSummary press = {};          ///< its summary.json, where it is a press ...
   GraspSummary grasp = {};          ///< ... or a grasp
   calibration::FitFile found = {};  ///< calibration.json of a fit; one to moduli has no curves
+  calibration::DisplacementFitFile ratio = {};  ///< displacements.json of a fit to displacements
   calibration::LawsFile laws = {};  ///< laws.json of a fit of laws
   ForceComparison forces = {};      ///< with what they are measured against
   ContactErrors contact = {};       ///< of a variant whose contact is drawn, likewise
+  DisplacementComparison displacements = {};  ///< of a variant that names measured ones
   ForceComparison change = {};      ///< with the press it stands beside, at that one's samples
   Measures measures = {};           ///< of this run alone, see measures.h
   bool ok() const { return status == finished; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace fingertip::studies::inline cases {
 
@@ -100,6 +101,22 @@ SeriesMeasures measure_series(const Members& series) {
     measures.finest_error = worst;
   }
   return measures;
+}
+
+std::vector<Displaced> displaced(const Members& variants) {
+  std::vector<Displaced> presses, continua;
+  for (const RunResult* result : variants) {
+    const DisplacementComparison& found = result->displacements;
+    if (found.empty()) continue;
+    presses.push_back(
+        {full_name(*result->run), result->folder, found.measured.get(), &found.press});
+    const bool finite = result->setup.lattice.kinematics == lattice::Kinematics::finite;
+    if (std::ranges::find(continua, result->against, &Displaced::folder) == continua.end())
+      continua.push_back({finite ? "continuum, finite strain" : "continuum, small strain",
+                          result->against, found.measured.get(), &found.reference});
+  }
+  std::ranges::move(presses, std::back_inserter(continua));
+  return continua;
 }
 
 double limit_error(const Members& series) {

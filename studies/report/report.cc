@@ -172,7 +172,8 @@ class PageMaker {
 
   /// A study has its presses to show, and nothing of the core case.
   Page study_page() {
-    Makers chapters{[this] { return variants_chapter(run_); }};
+    Makers chapters{[this] { return own_displacements(); },
+                    [this] { return variants_chapter(run_); }};
     for (std::size_t i = 0; i < run_.drawn.size(); ++i) {
       const DrawnPress& press = run_.drawn[i];
       const std::vector<RunContact> both{
@@ -190,6 +191,12 @@ class PageMaker {
     return made("Soft fingertip: a study of lattices",
                 "A study of mass-spring fingertips against a continuum of the same specimen",
                 chapters);
+  }
+
+  Chapter own_displacements() {
+    return displacements_chapter(
+        reader_.take<DisplacementStudy>(reader_.json(run_.folder / "distances.json")),
+        reader_.rows<DisplacementRow>(run_.folder / "displacements.csv"));
   }
 
   /// Fits have neither presses of models nor a continuum of their own.

@@ -4,12 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "lattice/press/press.h"
 #include "lattice/press/static_press.h"
 #include "lattice/statics/cut_lattice.h"
 #include "meshes/press/markers.h"
+#include "tests/fingers.h"
 #include "tests/lattice/presses.h"
 
 using namespace fingertip;
@@ -121,6 +124,38 @@ TEST(StaticPress, MarkersGoWithPlaneAndRod) {
   EXPECT_NEAR((rows[3].displacement - Vector3(0.4e-3, 0.0, -1e-3)).norm(), 0.0, 0.02e-3);
   for (const std::size_t held : {1u, 2u, 4u, 5u})
     EXPECT_NEAR(rows[held].displacement.norm(), 0.0, 0.02e-3);
+}
+
+/// A block held below and pressed by a plane that sticks lies between two plates that hold its
+/// faces: it is its own mirror image across its middle, seen from there. At large strain sides that
+/// bulge fold onto the plane, not onto the bond.
+TEST(StaticPress, ABlockBetweenPlatesIsItsOwnMirrorImage) {
+  const double half = 40e-3;
+  PressSetup setup = presses::setup_of({.samples = {4e-3, 14.6e-3}});
+  setup.geometry = meshes::Geometry::of_solid(
+      std::make_shared<meshes::Solid>(fingers::box({-half, -half, 0.0}, {half, half, 2.0 * half}),
+                                      meshes::Region{{{2, true, 1e-6}}}));
+  setup.lattice.spacing = 8e-3;
+  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  for (const double x : {3e-3, 17e-3, 35e-3})
+    for (const double y : {-33e-3, 11e-3})
+      for (const double z : {4e-3, 15e-3, 31e-3}) {
+        setup.protocol.markers.emplace_back(x, y, z);
+        setup.protocol.markers.emplace_back(x, y, 2.0 * half - z);
+      }
+  for (const auto& [model, within] :
+       {std::pair{ModelKind::hookean, 1e-4}, {ModelKind::network, 5e-3}}) {
+    setup.lattice.model = model;
+    setup.lattice.kinematics =
+        model == ModelKind::hookean ? lattice::Kinematics::small : lattice::Kinematics::finite;
+    const auto rows = lattice::run_static_press(setup).markers;
+    ASSERT_EQ(rows.size(), 2 * setup.protocol.markers.size());
+    for (std::size_t i = 0; i < rows.size(); i += 2) {
+      Vector3 image = rows[i + 1].displacement;
+      image.z() = -rows[i].indentation - image.z();
+      EXPECT_LT((rows[i].displacement - image).norm(), within * rows[i].indentation) << i;
+    }
+  }
 }
 
 /// Slow enough for inertia to be nothing: the same displacements seen from a rod that moves, also

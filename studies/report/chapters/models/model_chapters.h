@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "studies/files/displacement_study.h"
 #include "studies/report/page/document.h"
 #include "studies/report/results/run_data.h"
 
@@ -16,6 +17,9 @@ Chapter equilibrium_chapter(const RunData& run);
 Chapter elasticity_chapter(const RunData& run);
 /// A study's static presses against their continua.
 Chapter variants_chapter(const RunData& run);
+/// Measured displacements beside those of a study's presses and their continua.
+Chapter displacements_chapter(const DisplacementStudy& study,
+                              const std::vector<DisplacementRow>& points);
 /// The study's result in one paragraph.
 std::string variants_answer(const RunData& run);
 /// Why the models differ, in words.
