@@ -100,6 +100,7 @@ class HeldBack {
     for (const calibration::OddValue& odd : record_.odd)  // counts for nothing
       told(first_value(curves, odd.curve) + Index(odd.place)) *= 1e3;
     const Index values = all.residuals.size() - known_;
+    told.tail(values) *= noise_ratio();
     slopes_ = all.jacobian.bottomRows(values);
     calibration::FurtherValues further{slopes_.leftCols(parameters_), {}, told.tail(values)};
     for (calibration::ErrorComponent& each : components) {
@@ -125,6 +126,17 @@ class HeldBack {
     MatrixXd covariance = draws_ * draws_.transpose() / double(draws_.cols());
     covariance.diagonal() *= 1.0 + 1e-9;
     weight_ = covariance.llt().solve(MatrixXd::Identity(values, values));
+  }
+
+  /// Of the press's values over those of the fit, as far as rows of their files tell it.
+  double noise_ratio() const {
+    const std::vector<FitCurve>& curves = input_.curves;
+    if (!curves.front().sigma.empty()) return 1.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i + 1 < curves.size(); ++i)
+      squares += std::pow(curves[i].course.noise_of_value(), 2) / double(curves.size() - 1);
+    const double ratio = curves.back().course.noise_of_value() / std::sqrt(squares);
+    return std::isfinite(ratio) && ratio > 0.0 ? ratio : 1.0;
   }
 
   /// The press's own parameters by its values; what is left of these, measured less foretold.

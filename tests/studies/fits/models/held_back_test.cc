@@ -42,8 +42,8 @@ class Ball final : public calibration::ForwardModel {
 
 constexpr double small_ball = 0.16, large_ball = 0.3;
 
-/// Presses are drawn: touch, noise of 1 % of the largest force, and what their model misses, by
-/// so much over the depth.
+/// Presses are drawn: touch, noise of 1 % of the small ball's largest force, and what their model
+/// misses, by so much over the depth.
 struct Drawn {
   double missed = 0.0, factor = 1.0;  ///< of the second press
   std::mt19937 random;
@@ -51,7 +51,7 @@ struct Drawn {
   calibration::Curve press(double size, double own_factor) {
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> touches(0.1e-3, 0.6e-3);
-    const double touch = touches(random), largest = truth * size * std::pow(reach, 1.5),
+    const double touch = touches(random), largest = truth * small_ball * std::pow(reach, 1.5),
                  tilt = missed * normal(random), bend = missed * normal(random);
     calibration::Curve curve;
     curve.is_travel = true;

@@ -376,6 +376,36 @@ TEST_F(FitReport, AComplianceThatNobodyMeasuredIsAssumed) {
 }
 
 /// 0.006 +- 0.013 mm is a touch that is known well; a modulus whose interval exceeds it is not.
+TEST_F(FitReport, APressThatWasHeldBackStandsBesideWhatIsForetold) {
+  const auto predicted = [](double probability) {
+    return [probability](json& result) {
+      result["predicted"] = {
+          {{"name", "deeper"},
+           {"condition", "stick"},
+           {"own", {{{"name", "touch_offset (deeper)"}, {"unit", "m"}, {"estimate", 3.1e-4}}}},
+           {"x", {0.001, 0.002}},
+           {"measured", {0.011, 0.032}},
+           {"foretold", {0.010, 0.030}},
+           {"lower", {0.009, 0.027}},
+           {"upper", {0.012, 0.034}},
+           {"rms_relative", 0.066},
+           {"within", 1.0},
+           {"probability", probability},
+           {"failure", ""}}};
+    };
+  };
+  const std::string inside = visible_text(report(predicted(0.4)));
+  EXPECT_TRUE(says(inside, {"Held back and foretold", "deeper", "6.6", "27", "34", "inside",
+                            "touch_offset (deeper)"}));
+  EXPECT_TRUE(omits(inside, "does not foretell"));
+  const auto measured = rows("fit_predicted1", "measured");
+  ASSERT_EQ(measured.size(), 2u);
+  EXPECT_NEAR(measured[1][1], 32.0, 1e-9);  // mN
+  EXPECT_TRUE(says(visible_text(report(predicted(0.001))),
+                   {"does not foretell what it has not seen", "outside", "probability 0.001"}));
+  EXPECT_TRUE(omits(visible_text(report()), "Held back"));
+}
+
 TEST_F(FitReport, ATouchNearZeroIsDeterminedAndAModulusLikeThatIsNot) {
   const auto page = [&](const char* name, const char* unit) {
     return visible_text(report([&](json& result) {
