@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "meshes/base/files.h"
+#include "studies/config/text/named_folder.h"
 #include "studies/config/text/trimmed.h"
 #include "studies/config/text/units.h"
 
@@ -357,7 +358,11 @@ Reading read(const Key& key, const toml::node& node, const std::filesystem::path
   Reading reading{read_value(key, node), toml_literal(node)};
   Value& value = reading.value;
   const auto locate = [&](std::string& file) {
-    file = std::filesystem::absolute(base / file).lexically_normal().string();
+    const auto found = located(file, base);
+    if (!found)
+      refuse("no environment variable " + variable_in(file) + " is set",
+             "set it to the folder of the data");
+    file = std::filesystem::absolute(*found).lexically_normal().string();
   };
   if (key.kind == Kind::files) {
     toml::array files;

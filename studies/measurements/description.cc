@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 
 #include "meshes/base/errors.h"
+#include "studies/config/text/named_folder.h"
 #include "studies/config/text/units.h"
 #include "studies/config/value_reader.h"
 
@@ -113,14 +113,9 @@ std::optional<TestTable> TestTable::table(string_view key) const {
 }
 
 fs::path TestTable::located(string_view key, const std::string& written) const {
-  if (!written.starts_with('$')) return file_.parent_path() / written;
-  const auto slash = std::min(written.find('/'), written.size());
-  const std::string variable = written.substr(1, slash - 1);
-  const char* const folder = std::getenv(variable.c_str());
-  if (folder == nullptr || *folder == '\0')
-    refuse(key, written, "no environment variable " + variable + " is set",
-           "set it to the folder of the data");
-  return fs::path(folder) / written.substr(std::min(slash + 1, written.size()));
+  if (const auto found = studies::located(written, file_.parent_path())) return *found;
+  refuse(key, written, "no environment variable " + variable_in(written) + " is set",
+         "set it to the folder of the data");
 }
 
 std::vector<fs::path> TestTable::paths(string_view key) const {

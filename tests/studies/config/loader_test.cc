@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "studies/config/documents.h"
@@ -373,4 +374,21 @@ TEST(Loader, RefusesProgramsWithTheNumberOfTheStage) {
   }
   EXPECT_TRUE(says(refusal({start + "]", "press.lateral=1 mm", "press.lateral_path=after"}),
                    "no lateral motion and no twist follow"));
+}
+
+TEST(Loader, AFileMayStandBelowAFolderThatTheEnvironmentNames) {
+  const TemporaryFolder folder;
+  write_text(folder / "case.toml",
+             "[calibration]\nproblem = \"experiment\"\n"
+             "data = [\"own.csv\", \"$FINGERTIP_TEST_DATA/gel/forces.csv\"]\n");
+  unsetenv("FINGERTIP_TEST_DATA");
+  const auto refused = problems([&] { config_in(folder / "case.toml"); });
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_EQ(refused[0].rule, "no environment variable FINGERTIP_TEST_DATA is set");
+  setenv("FINGERTIP_TEST_DATA", "/data", 1);
+  const auto files = config_in(folder / "case.toml").config.calibration.data;
+  unsetenv("FINGERTIP_TEST_DATA");
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_EQ(files[0], folder / "own.csv");
+  EXPECT_EQ(files[1], "/data/gel/forces.csv");
 }
