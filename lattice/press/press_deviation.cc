@@ -356,7 +356,9 @@ bool ForceEstimator::knows_model() const {
 std::optional<ForceEstimate> ForceEstimator::of(const meshes::PressSample& sample) const {
   const double depth = sample.indentation, patch = sample.contact_radius;
   if (!knows_model() || !(sample.normal_force > 0.0 && depth > 0.0 && patch > 0.0)) return {};
-  return terms_->estimate(patch, depth);
+  ForceEstimate found = terms_->estimate(patch, depth);
+  if (!std::isnan(sample.step_error)) found.steps = sample.step_error / sample.normal_force;
+  return found;
 }
 
 std::optional<ForceEstimate> ForceEstimator::at(double depth) const {

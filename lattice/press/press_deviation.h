@@ -101,11 +101,12 @@ struct ForceEstimate {
   double inside = 0.0;   ///< of the same across the wall, and of the ties
   double model = 0.0;    ///< of what the model's springs cannot be, however fine
   double motion = 0.0;   ///< of inertia and damping of the rubber, and of scaled masses
+  double steps = 0.0;    ///< of the steps of a press at rest, as told by the sample
   /// Of the pressures besides, which does not change their sum: root mean square over the contact,
   /// over the largest.
   double profile = 0.0;
   double grid() const { return contact + inside; }
-  double sum() const { return grid() + model + motion; }
+  double sum() const { return grid() + model + motion + steps; }
 };
 
 /// Estimates for the samples of one press. None of `published`, whose springs have no modulus of

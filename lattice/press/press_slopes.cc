@@ -19,17 +19,27 @@ Vector3 pull(const std::vector<EmbeddedPoint>& bond, const VectorXd& displacemen
   return sum;
 }
 
-/// d(anchor)/dp of a point that touched at a share s = before/(before - after) of its way, from
-/// those of its places at start and end of the step.
-Vector3 anchor_slope(const FirstTouch& touch, const Vector3& first, const Vector3& last) {
-  const double share = touch.share(), closing = touch.before - touch.after;
+/// ds/dp of the share s = before/(before - after) of its way at which a point touched, from those
+/// of its places at start and end of the step.
+double share_slope(const FirstTouch& touch, const Vector3& first, const Vector3& last) {
+  const double closing = touch.before - touch.after;
   // At the start the gap of a point within the plane by round-off counts as zero.
   const double before = touch.before > 0.0 ? first.dot(touch.first_normal) : 0.0,
                after = last.dot(touch.last_normal);
-  const double share_slope = (touch.before * after - touch.after * before) / (closing * closing);
-  return touch.projection *
-         ((1.0 - share) * first + share * last + share_slope * (touch.last - touch.first));
+  return (touch.before * after - touch.after * before) / (closing * closing);
 }
+
+/// d(anchor)/dp of such a point.
+Vector3 anchor_slope(const FirstTouch& touch, const Vector3& first, const Vector3& last) {
+  const double share = touch.share();
+  return touch.projection * ((1.0 - share) * first + share * last +
+                             share_slope(touch, first, last) * (touch.last - touch.first));
+}
+
+/// Of displacements with what touches: a round takes a tenth to a hundredth of what the one before
+/// has left.
+constexpr double settled = 1e-10;
+constexpr int max_rounds = 100;
 
 }  // namespace
 
@@ -71,10 +81,38 @@ MatrixXd SlopeSystem::forces(const StaticContact& contact, const VectorXd& displ
   return result;
 }
 
+void SlopeSystem::add_touching(const std::vector<FirstTouch>& touches, const StateSlopes& start,
+                               const StateSlopes& end, MatrixXd& forces) const {
+  for (Index j = 0; j < forces.cols() && !touches.empty(); ++j) {
+    const VectorXd first = start.displacement.col(j), last = end.displacement.col(j);
+    for (const FirstTouch& touch : touches) {
+      const EmbeddedPoint& outer = body_->outer[touch.point];
+      const Vector3 from = shift(outer, first),
+                    push = outer.stiffness *
+                           ((1.0 - touch.share()) * touch.first_projection * from -
+                            share_slope(touch, from, shift(outer, last)) * touch.across);
+      for (std::size_t c = 0; c < 8; ++c)
+        forces.col(j).segment<3>(3 * Index(outer.corners[c])) += outer.weights[c] * push;
+    }
+  }
+  for (std::size_t i = 0; i < body_->fixed.size(); ++i)
+    if (body_->fixed[i]) forces.row(Index(i)).setZero();
+}
+
+/// How much of a tie across holds depends on the answer itself, not symmetrically: in rounds.
 void SlopeSystem::respond(EquilibriumSolver& solver, const StaticContact& contact,
-                          const VectorXd& displacement, StateSlopes& slopes) const {
+                          const VectorXd& displacement, const std::vector<FirstTouch>& touches,
+                          const StateSlopes& start, StateSlopes& slopes) const {
   const MatrixXd pushes = forces(contact, displacement, slopes);
-  if (solver.respond(contact, displacement, pushes, slopes.displacement)) return;
+  for (int round = 0; round < max_rounds; ++round) {
+    const MatrixXd before = slopes.displacement;
+    MatrixXd all = pushes;
+    add_touching(touches, start, slopes, all);
+    if (!solver.respond(contact, displacement, all, slopes.displacement)) break;
+    if (touches.empty() ||
+        (slopes.displacement - before).norm() <= settled * slopes.displacement.norm())
+      return;
+  }
   const double indentation = contact.pose().indentation;
   throw meshes::NoEquilibrium("the force has no derivative at an indentation of " +
                                   meshes::to_text(indentation) +

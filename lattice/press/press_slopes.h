@@ -44,9 +44,11 @@ class SlopeSystem {
   /// Slopes of the state of rest: zero.
   StateSlopes at_rest() const;
   /// Sets slopes.displacement, whose entries serve as a first guess, to those of the equilibrium
-  /// `displacement`. Throws NotConverged where the tangent is not positive definite.
+  /// `displacement`, where `touches`, not yet anchored, have gone since `start`. Throws
+  /// NotConverged where the tangent is not positive definite.
   void respond(EquilibriumSolver& solver, const StaticContact& contact,
-               const Eigen::VectorXd& displacement, StateSlopes& slopes) const;
+               const Eigen::VectorXd& displacement, const std::vector<FirstTouch>& touches,
+               const StateSlopes& start, StateSlopes& slopes) const;
   /// Sets in `end` the slopes of the anchors of points that touch first on the way from `start` to
   /// there.
   void anchor(const std::vector<FirstTouch>& touches, const StateSlopes& start,
@@ -64,6 +66,9 @@ class SlopeSystem {
 
   Eigen::MatrixXd forces(const StaticContact& contact, const Eigen::VectorXd& displacement,
                          const StateSlopes& slopes) const;
+  /// Adds what their ties push by the slopes of where they come from and of how much they hold.
+  void add_touching(const std::vector<FirstTouch>& touches, const StateSlopes& start,
+                    const StateSlopes& end, Eigen::MatrixXd& forces) const;
 
   const LatticeBody* body_;
   std::vector<std::unique_ptr<const Part>> parts_;  ///< per parameter

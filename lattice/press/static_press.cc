@@ -13,6 +13,7 @@
 #include "lattice/model/model.h"
 #include "lattice/press/marker_points.h"
 #include "lattice/press/press_pictures.h"
+#include "lattice/press/step_error.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/equilibrium.h"
@@ -31,18 +32,23 @@ using meshes::Vector3;
 
 namespace {
 
-/// Largest step, as a share of the rubber's thickness, where a state owes something to those before
-/// it or is not easily found: of forces that stick 1/40 costs 2e-4 (MEASUREMENTS).
-constexpr double largest_share = 1.0 / 40.0;
+/// Longest step, as a share of the rubber's thickness, where a state owes something to those before
+/// it or is not easily found.
+constexpr double longest_share = 1.0 / 10.0;
+/// The same of the published lattice, whose particles touch plane by plane, and where the plane
+/// turns, of which no error is told.
+constexpr double longest_share_untold = 1.0 / 40.0;
 /// The same where points slide, each straight within a step: lateral forces of a partial slip are
 /// then within 2 % of those of ever smaller steps, with 1/40 7 % too small.
-constexpr double largest_share_of_slip = 1.0 / 100.0;
-/// A step is not made smaller than this share of the largest.
-constexpr double smallest_share = 1.0 / 128.0;
-/// Rounds of anchoring and releasing within a step.
+constexpr double longest_share_of_slip = 1.0 / 100.0;
+/// A step that fails is not made smaller than this share.
+constexpr double smallest_share = 1.0 / 12800.0;
+/// Steps are as long as leaves the force of what sticks in doubt by this share (StepError).
+constexpr double step_tolerance = 2e-3;
+/// Rounds of releasing and anchoring within a step.
 constexpr int max_rounds = 60;
-/// Unbalanced force that is small enough to see which points touch.
-constexpr double search_tolerance = 1e-5;
+/// Unbalanced force that is small enough for anchors.
+constexpr double search_tolerance = 1e-6;
 
 /// What PressSetup::violations() demands of a static press, whatever mode it says.
 std::vector<meshes::Violation> violations_of(const PressSetup& setup) {
@@ -83,9 +89,13 @@ class StaticPress {
   void take_census();
   void march_to(double target);
   bool step_to(double place, bool is_sample);
+  /// That doubt alone asks for [m].
+  double shortest_step() const { return longest_share_of_slip * setup_.geometry.thickness(); }
+  double next_step() const;
   VectorXd extrapolated(double place) const;
-  bool anchor(State& next) const;
-  Wrench on_rod() const;
+  bool anchor(State& next);
+  void take_over(State next, const VectorXd& predicted);
+  Wrench on_rod(const VectorXd& displacement) const;
   PressSample sample() const;
   FingerPicture drawn();
   void note_slopes();
@@ -104,7 +114,8 @@ class StaticPress {
   State now_;
   double previous_place_ = 0.0;
   VectorXd previous_displacement_;  ///< one step ago
-  double largest_step_ = 0.0, step_ = 0.0;
+  double longest_step_ = 0.0, step_ = 0.0;
+  StepError step_error_;
   StaticOutcome outcome_;
   std::optional<PressPictures> pictures_;
   const MarkerPoints markers_;
@@ -125,11 +136,15 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
            VectorXd::Zero(body.unknowns()),
            {}},
       previous_displacement_(now_.displacement),
+      step_error_(body),
       markers_(setup, body.sectors, body.rest) {
   const bool direct = !body.finite && setup.protocol.contact == ContactMode::frictionless;
-  const double share = now_.contact.rubs() ? largest_share_of_slip : largest_share;
-  largest_step_ = direct ? path_.length() : share * setup.geometry.thickness();
-  step_ = largest_step_;
+  const double share = now_.contact.rubs()                           ? longest_share_of_slip
+                       : setup.lattice.model == ModelKind::published ? longest_share_untold
+                                                                     : longest_share;
+  longest_step_ = direct ? path_.length() : share * setup.geometry.thickness();
+  step_ = longest_step_;
+  if (now_.contact.holds()) step_ = std::min(step_, 2.0 * shortest_step());
   take_census();
 }
 
@@ -172,17 +187,20 @@ StaticOutcome StaticPress::run() {
 
 void StaticPress::march_to(double target) {
   // Steps of equal length, so that none is left over at the end.
+  const bool turns =
+      now_.contact.holds() && path_.at(now_.contact.place()).twist != path_.at(target).twist;
+  const double most = turns ? longest_share_untold * setup_.geometry.thickness() : longest_step_;
   while (now_.contact.place() < target) {
     const double left = target - now_.contact.place();
-    const double count = std::ceil(left / step_ - 1e-9);
+    const double count = std::ceil(left / std::min(step_, most) - 1e-9);
     const bool last = count <= 1.0;
     if (step_to(last ? target : now_.contact.place() + left / count, last)) {
-      step_ = std::min(2.0 * step_, largest_step_);
+      step_ = next_step();
       if (!last) report();
       continue;
     }
     step_ = 0.5 * left / std::max(count, 1.0);
-    if (step_ < smallest_share * largest_step_) {
+    if (step_ < smallest_share * setup_.geometry.thickness()) {
       throw meshes::NoEquilibrium("the static press", now_.contact.pose(), "",
                                   "take a finer lattice (lattice.spacing)");
     }
@@ -198,55 +216,67 @@ VectorXd StaticPress::extrapolated(double place) const {
   return std::isfinite(system_.energy(guess)) ? guess : now_.displacement;
 }
 
+/// The next step's length [m].
+double StaticPress::next_step() const {
+  const double suited = std::max(step_error_.length_for(step_tolerance), shortest_step());
+  return std::min({2.0 * step_, longest_step_, suited});
+}
+
 /// On the way to a sample a state need be no better than what its anchors come from.
 bool StaticPress::step_to(double place, bool is_sample) {
-  const double from = now_.contact.place();
-  State next{now_.contact, extrapolated(place), now_.slopes};
+  const VectorXd predicted = extrapolated(place);
+  State next{now_.contact, predicted, now_.slopes};
   next.contact.begin_step(place, now_.displacement);
-  const bool stick = setup_.protocol.contact == ContactMode::stick,
-             holds = setup_.protocol.contact != ContactMode::frictionless;
   const double enough = is_sample ? tolerance_ : search_tolerance_;
-  double tolerance = holds ? search_tolerance_ : enough;
-  bool converged = false;
-  for (int round = 0; round < max_rounds && !converged; ++round) {
+  double tolerance = next.contact.holds() ? search_tolerance_ : enough;
+  for (int round = 0;; ++round) {
+    if (round == max_rounds) return false;
     next.contact.move_feet(next.displacement);
     if (!solver_.solve(next.contact, next.displacement, tolerance)) return false;
-    if (stick && slope_system_)
-      slope_system_->respond(solver_, next.contact, next.displacement, next.slopes);
-    // Released first: what touches only now has no say yet.
-    const bool released = next.contact.release_pulled(next.displacement) > 0;
-    if (anchor(next) || released) continue;
-    converged = tolerance == enough;
-    tolerance = enough;
+    if (next.contact.release_pulled(next.displacement) > 0) continue;
+    if (tolerance != enough) {
+      tolerance = enough;
+    } else if (!anchor(next)) {
+      break;
+    }
   }
-  if (!converged) return false;
   if (next.contact.rubs()) next.contact.end_step(next.displacement);
-  previous_place_ = from;
+  take_over(std::move(next), predicted);
+  return true;
+}
+
+/// The next state becomes the present one.
+void StaticPress::take_over(State next, const VectorXd& predicted) {
+  if (next.contact.holds() && next.contact.pose().twist == now_.contact.pose().twist)
+    step_error_.note(now_.contact, now_.displacement, next.contact, next.displacement, predicted,
+                     on_rod(next.displacement).force.norm());
+  previous_place_ = now_.contact.place();
   previous_displacement_.swap(now_.displacement);
   now_ = std::move(next);
   ++outcome_.steps;
   outcome_.smallest_jacobian =
       std::min(outcome_.smallest_jacobian, system_.smallest_jacobian(now_.displacement));
-  return true;
 }
 
 /// Anchors what has crossed the plane since the step's start; whether anything has.
-bool StaticPress::anchor(State& next) const {
+bool StaticPress::anchor(State& next) {
   const double from = now_.contact.place();
-  if (slope_system_) {
-    slope_system_->anchor(next.contact.first_touches(now_.displacement, from, next.displacement),
-                          now_.slopes, next.slopes);
+  if (slope_system_ && next.contact.holds()) {
+    const auto touches = next.contact.first_touches(now_.displacement, from, next.displacement);
+    slope_system_->respond(solver_, next.contact, next.displacement, touches, now_.slopes,
+                           next.slopes);
+    slope_system_->anchor(touches, now_.slopes, next.slopes);
   }
   return next.contact.anchor_touching(now_.displacement, from, next.displacement) > 0;
 }
 
 /// Force and torque on the rod from the bond's ties. A tie's pull goes through its point on the
 /// rod, at rest or not, and the body's forces balance: they are those of the plane, too.
-Wrench StaticPress::on_rod() const {
+Wrench StaticPress::on_rod(const VectorXd& displacement) const {
   const Vector3 endpoint = setup_.geometry.rod_endpoint();
   Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
   for (const EmbeddedPoint& point : body_.bond) {
-    const Vector3 pull = point.stiffness * shift(point, now_.displacement);
+    const Vector3 pull = point.stiffness * shift(point, displacement);
     force += pull;
     torque += (point.rest - endpoint).cross(pull);
   }
@@ -257,7 +287,7 @@ Wrench StaticPress::on_rod() const {
 }
 
 PressSample StaticPress::sample() const {
-  const auto [force, torque] = on_rod();
+  const auto [force, torque] = on_rod(now_.displacement);
   const PressPlane& plane = now_.contact.plane();
   PressSample sample;
   const meshes::PressPose pose = now_.contact.pose();
@@ -265,6 +295,7 @@ PressSample StaticPress::sample() const {
   sample.lateral_displacement = pose.lateral;
   sample.twist = pose.twist;
   sample.normal_force = force.dot(plane.normal);
+  sample.step_error = step_error_.relative() * std::abs(sample.normal_force);
   sample.lateral_force_x = force.dot(plane.t1);
   sample.lateral_force_y = force.dot(plane.t2);
   sample.torque_x = torque.x();
@@ -292,7 +323,7 @@ FingerPicture StaticPress::drawn() {
   bare.indentation = now_.contact.pose().indentation;
   bare.rod.position = travel;
   bare.endpoint = setup_.geometry.rod_endpoint() + travel;
-  bare.on_rod = on_rod();
+  bare.on_rod = on_rod(now_.displacement);
   bare.plane.point = plane.point(0.0);
   bare.plane.normal = plane.normal;
   bare.plane.obstacle = plane.obstacle;
@@ -302,7 +333,7 @@ FingerPicture StaticPress::drawn() {
 
 /// Frictionless, a state owes nothing to those before it: only samples need slopes.
 void StaticPress::note_slopes() {
-  slope_system_->respond(solver_, now_.contact, now_.displacement, now_.slopes);
+  slope_system_->respond(solver_, now_.contact, now_.displacement, {}, now_.slopes, now_.slopes);
   const Eigen::Matrix3Xd force = slope_system_->force(now_.displacement, now_.slopes);
   const PressPlane& plane = now_.contact.plane();
   const auto append = [](const Eigen::RowVectorXd& row, Eigen::MatrixXd& table) {

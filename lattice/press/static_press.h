@@ -15,7 +15,8 @@
 namespace fingertip::lattice::inline press {
 
 /// Counts are those of the part computed, 1/sectors of the tip; forces, torques, radii and contact
-/// points are the whole tip's. Of the response's columns time and force_error stay unknown.
+/// points are the whole tip's. Of the response's columns time and force_error stay unknown;
+/// step_error is StepError's, of what sticks.
 /// contact_radius and max_pressure are those of the field: true ones at finite strain, at small
 /// strain those of the shape at rest. How far off they are stands in
 /// lattice/MEASUREMENTS.md (contact).
@@ -42,15 +43,16 @@ using StaticObserver = std::function<bool(const StaticOutcome& so_far, double fr
 /// law, with tilt, lateral motion and twist. Contact is a one-sided elastic tie of every outer
 /// point to the plane (EmbeddedPoint::stiffness): frictionless along the normal; stick to the place
 /// where the point first touched, interpolated within the step, and released when pulled; coulomb
-/// as stick, along the plane no more than friction holds. Steps are at most (R - r)/40,
-/// (R - r)/100 under coulomb, one to a sample without friction at small strain; a step that fails
-/// is halved, down to 1/128 of that. The published model is computed on its own particles, the
-/// others on cut cells, on the smallest part that symmetry allows. Of `setup`, the protocol's mode,
-/// rod, controller and integrator do not matter. Throws InvalidInput for a setup that breaks a
-/// rule, NotConverged when Newton's method fails at the smallest step (the observer has seen what
-/// was finished), Interrupted when the observer asks. A press that is `pictured` builds the whole
-/// tip as a moving lattice, too: snapshots are at rest, at the first sample from half the depth on,
-/// and at the last sample.
+/// as stick, along the plane no more than friction holds. Steps are at most (R - r)/10, of what
+/// sticks as long as leaves the force in doubt by 0.2 % (StepError); (R - r)/40 where the plane
+/// turns and for the published model, (R - r)/100 under coulomb, one to a sample without friction
+/// at small strain; a step that fails is halved, down to (R - r)/12800. The published model is
+/// computed on its own particles, the others on cut cells, on the smallest part that symmetry
+/// allows. Of `setup`, the protocol's mode, rod, controller and integrator do not matter. Throws
+/// InvalidInput for a setup that breaks a rule, NotConverged when Newton's method fails at the
+/// smallest step (the observer has seen what was finished), Interrupted when the observer asks. A
+/// press that is `pictured` builds the whole tip as a moving lattice, too: snapshots are at rest,
+/// at the first sample from half the depth on, and at the last sample.
 StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer = {},
                                bool pictured = false);
 

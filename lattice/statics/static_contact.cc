@@ -32,6 +32,8 @@ StaticContact::StaticContact(const LatticeBody& body, const PressPlane& plane,
       law_(law),
       anchored_(body.outer.size(), 0),
       released_(body.outer.size(), 0),
+      start_(body.outer.size()),
+      part_(body.outer.size(), 0.0),
       slid_(body.outer.size(), 0),
       anchor_(body.outer.size(), Vector3::Zero()),
       limit_(body.outer.size(), law.mode == ContactMode::stick ? endless : 0.0),
@@ -52,8 +54,15 @@ void StaticContact::begin_step(double place, const VectorXd& displacement) {
   turn_ = turn(place);
   axes_ = turn_ * plane_.axes();
   first_.clear();
-  if (!has_feet()) return;
   first_foot_ = foot_;
+  for (std::size_t i = 0; holds() && i < start_.size(); ++i) {
+    if (!anchored_[i]) part_[i] = 0.0;
+    const Relative first = relative(i, displacement, from_);
+    const GapAndNormal before = gap_and_normal(first);
+    start_[i] = {std::max(before.gap, 0.0),
+                 turned_back(i, first.now - before.gap * before.normal, from_)};
+  }
+  if (!has_feet()) return;
   const meshes::PressPose before = plane_.path.at(from_), now = pose();
   if (before.lateral == now.lateral && before.twist == now.twist) return;
   if (law_.mode == ContactMode::frictionless) {  // nothing takes the rubber along
@@ -86,10 +95,13 @@ void StaticContact::move_feet(const VectorXd& displacement) {
   }
 }
 
-void StaticContact::update_friction(const VectorXd& displacement) {
-  for (std::size_t i = 0; rubs() && i < body_->outer.size(); ++i)
-    limit_[i] = law_.friction *
-                TiePush(body_->contact, std::max(-gap_and_normal(i, displacement).gap, 0.0)).length;
+void StaticContact::update_ties(const VectorXd& displacement) {
+  for (std::size_t i = 0; holds() && i < body_->outer.size(); ++i) {
+    if (anchored_[i] && !rubs()) continue;
+    const double depth = std::max(-gap_and_normal(i, displacement).gap, 0.0);
+    if (rubs()) limit_[i] = law_.friction * TiePush(body_->contact, depth).length;
+    if (!anchored_[i]) part_[i] = depth > 0.0 ? depth / (start_[i].gap + depth) : 0.0;
+  }
 }
 
 Vector3 StaticContact::turned(std::size_t point, const Vector3& fixed) const {
@@ -127,13 +139,13 @@ Matrix3d StaticContact::bend(const Relative& point) const {
 }
 
 bool StaticContact::touches(std::size_t point, const VectorXd& displacement) const {
-  const bool sticks = law_.mode == ContactMode::stick;
-  return anchored_[point] != 0 || (!sticks && gap_and_normal(point, displacement).gap < 0.0);
+  return part_[point] > 0.0 || gap_and_normal(point, displacement).gap < 0.0;
 }
 
 Vector3 StaticContact::stretch(std::size_t point, const VectorXd& displacement) const {
-  const Vector3 pull = plane_.point(place_) + turned(point, anchor_[point]) -
-                       position(body_->outer[point], displacement);
+  const Vector3& held = anchored_[point] ? anchor_[point] : start_[point].foot;
+  const Vector3 pull =
+      plane_.point(place_) + turned(point, held) - position(body_->outer[point], displacement);
   if (!has_feet()) return pull;
   const GapAndNormal now = gap_and_normal(point, displacement);
   return pull - (pull.dot(now.normal) + now.gap) * now.normal;
@@ -142,8 +154,10 @@ Vector3 StaticContact::stretch(std::size_t point, const VectorXd& displacement) 
 StaticContact::Hold StaticContact::hold(std::size_t point, const Vector3& stretch,
                                         double depth) const {
   const double length = std::sqrt(std::max(0.0, stretch.squaredNorm() - depth * depth));
-  const double limit = limit_[point];
-  return {length, limit > 0.0 ? std::min(limit / length, 1.0) : 0.0};
+  const double limit = limit_[point], part = part_[point];
+  if (!(limit > 0.0)) return {length, 0.0, true};
+  const bool slips = limit < part * length;
+  return {length, slips ? limit / length : part, slips};
 }
 
 Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement) const {
@@ -151,9 +165,9 @@ Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement
   const EmbeddedPoint& outer = body_->outer[point];
   const GapAndNormal now = gap_and_normal(point, displacement);
   Vector3 length = TiePush(body_->contact, std::max(-now.gap, 0.0)).length * now.normal;
-  if (anchored_[point]) {
+  if (part_[point] > 0.0) {
     const Vector3 pull = stretch(point, displacement);
-    const double depth = tied_depth(now.gap);
+    const double depth = tied_depth(point, now.gap);
     length += hold(point, pull, depth).share * (pull - depth * now.normal);
   }
   return outer.stiffness * length;
@@ -166,12 +180,12 @@ double StaticContact::energy(const VectorXd& displacement) const {
     const EmbeddedPoint& outer = body_->outer[i];
     const double gap = gap_and_normal(i, displacement).gap;
     double own = TiePush(body_->contact, std::max(-gap, 0.0)).energy;
-    if (anchored_[i]) {
+    if (part_[i] > 0.0) {
       const Vector3 pull = stretch(i, displacement);
-      const double depth = tied_depth(gap);
+      const double depth = tied_depth(i, gap);
       const Hold held = hold(i, pull, depth);
-      own += held.share < 1.0 ? limit_[i] * (held.length - 0.5 * limit_[i])
-                              : 0.5 * (pull.squaredNorm() - depth * depth);
+      own += held.slips ? limit_[i] * (held.length - 0.5 * limit_[i] / part_[i])
+                        : 0.5 * part_[i] * (pull.squaredNorm() - depth * depth);
     }
     sum += outer.stiffness * own;
   }
@@ -194,13 +208,13 @@ double StaticContact::add(const VectorXd& displacement, const ElasticSystem& sys
     const TiePush tie(body_->contact, std::max(-now.gap, 0.0));
     const Matrix3d along = now.normal * now.normal.transpose();
     Matrix3d shape = tie.tangent * along - tie.length * bend(at);
-    if (rubs() && now.gap > 0.0) shape.setZero();  // what is across is still tied
-    if (anchored_[i]) {
-      const double depth = tied_depth(now.gap);
+    if (!pulls(i) && now.gap > 0.0) shape.setZero();  // what is across is still tied
+    if (part_[i] > 0.0) {
+      const double depth = tied_depth(i, now.gap);
       const Vector3 pull = stretch(i, displacement), across = pull - depth * now.normal;
       const Hold held = hold(i, pull, depth);
       shape += held.share * (Matrix3d::Identity() - along + depth * bend(at));
-      if (held.share > 0.0 && held.share < 1.0)
+      if (held.slips && held.share > 0.0)
         shape -= held.share / (held.length * held.length) * across * across.transpose();
     }
     system.add_embedded(outer, outer.stiffness * shape, *tangent);
@@ -208,52 +222,57 @@ double StaticContact::add(const VectorXd& displacement, const ElasticSystem& sys
   return sum;
 }
 
+FirstTouch StaticContact::touch(std::size_t point, const VectorXd& start, double from,
+                                const VectorXd& end) const {
+  const Relative first = relative(point, start, from), last = relative(point, end, place_);
+  const GapAndNormal before = gap_and_normal(first), after = gap_and_normal(last);
+  FirstTouch touch{.point = point,
+                   .before = std::max(before.gap, 0.0),
+                   .after = after.gap,
+                   .first = first.now,
+                   .last = last.now,
+                   .first_normal = before.normal,
+                   .last_normal = after.normal,
+                   .anchor = {},
+                   .projection = {},
+                   .across = stretch(point, end) + after.gap * after.normal,
+                   .first_projection = Matrix3d::Identity() -
+                                       before.normal * before.normal.transpose() -
+                                       before.gap * bend(first)};
+  // The gap is linear in the place for a plane and at small strain; else nearly so within a step.
+  const double share = touch.share();
+  const Matrix3d turned_axes = turn(from + share * (place_ - from)) * plane_.axes();
+  const Relative there{(1.0 - share) * first.now + share * last.now,
+                       (1.0 - share) * first.foot + share * last.foot, turned_axes};
+  const GapAndNormal left = gap_and_normal(there);
+  touch.anchor = there.now - left.gap * left.normal;
+  touch.projection =
+      Matrix3d::Identity() - left.normal * left.normal.transpose() - left.gap * bend(there);
+  return touch;
+}
+
 std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, double from,
                                                      const VectorXd& end) const {
   std::vector<FirstTouch> touches;
-  if (law_.mode == ContactMode::frictionless) return touches;
-  for (std::size_t i = 0; i < body_->outer.size(); ++i) {
-    if (anchored_[i]) continue;
-    const Relative last = relative(i, end, place_);
-    const GapAndNormal after = gap_and_normal(last);
-    if (after.gap >= -gap_noise) continue;
-    const Relative first = relative(i, start, from);
-    const GapAndNormal before = gap_and_normal(first);
-    FirstTouch touch{.point = i,
-                     .before = std::max(before.gap, 0.0),
-                     .after = after.gap,
-                     .first = first.now,
-                     .last = last.now,
-                     .first_normal = before.normal,
-                     .last_normal = after.normal,
-                     .anchor = {},
-                     .projection = {}};
-    // The gap is linear in the place for a plane and at small strain; else nearly so within a step.
-    const double share = touch.share();
-    const Matrix3d turned_axes = turn(from + share * (place_ - from)) * plane_.axes();
-    const Relative there{(1.0 - share) * first.now + share * last.now,
-                         (1.0 - share) * first.foot + share * last.foot, turned_axes};
-    const GapAndNormal left = gap_and_normal(there);
-    touch.anchor = there.now - left.gap * left.normal;
-    touch.projection =
-        Matrix3d::Identity() - left.normal * left.normal.transpose() - left.gap * bend(there);
-    touches.push_back(touch);
-  }
+  for (std::size_t i = 0; holds() && i < body_->outer.size(); ++i)
+    if (!anchored_[i] && gap_and_normal(i, end).gap < -gap_noise)
+      touches.push_back(touch(i, start, from, end));
   return touches;
 }
 
 int StaticContact::anchor_touching(const VectorXd& start, double from, const VectorXd& end) {
   const std::vector<FirstTouch> touches = first_touches(start, from, end);
-  for (const FirstTouch& touch : touches) {
-    const std::size_t i = touch.point;
-    const double there = from + touch.share() * (place_ - from);
-    anchor_[i] = turned_back(i, touch.anchor, there);
+  for (const FirstTouch& first : touches) {
+    const std::size_t i = first.point;
+    const double there = from + first.share() * (place_ - from);
+    anchor_[i] = turned_back(i, first.anchor, there);
     anchored_[i] = 1;
+    part_[i] = 1.0;
     const Matrix3d turned = turn(there);
     if (body_->finite)
       anchor_normal_[i] =
           turned.transpose() *
-          gap_and_normal({touch.anchor, Vector3::Zero(), turned * plane_.axes()}).normal;
+          gap_and_normal({first.anchor, Vector3::Zero(), turned * plane_.axes()}).normal;
   }
   return int(touches.size());
 }
@@ -264,6 +283,7 @@ void StaticContact::end_step(const VectorXd& displacement) {
     const GapAndNormal now = gap_and_normal(i, displacement);
     if (!(now.gap < 0.0)) {
       anchored_[i] = 0;
+      part_[i] = 0.0;
       continue;
     }
     const Vector3 pull = stretch(i, displacement), across = pull + now.gap * now.normal;
@@ -282,6 +302,7 @@ int StaticContact::release_pulled(const VectorXd& displacement) {
     if (anchored_push(i, displacement) >= -gap_noise * body_->outer[i].stiffness) continue;
     anchored_[i] = 0;
     released_[i] = 1;
+    part_[i] = 0.0;
     ++count;
   }
   return count;

@@ -37,6 +37,7 @@ struct PressSample {
   double mean_pressure = unknown;    ///< normal_force over it [Pa]
   double max_pressure = unknown;     ///< [Pa]
   double force_error = unknown;      ///< estimated error of normal_force [N]
+  double step_error = unknown;       ///< of it, what the steps of a lattice at rest leave [N]
   double time = unknown;             ///< since the start of the press [s]; empty for static runs
   double lateral_displacement = unknown;  ///< of the plane along t1, seen from the rod [m]
   double twist = unknown;                 ///< of the plane about n, seen from the rod [rad]
@@ -85,17 +86,18 @@ consteval auto fields_of(const PressSample*) {
                                max_pressure, force_error, time, contact_area, mean_pressure,
                                lateral_displacement, twist, spin_torque, lateral_force_error,
                                torque_error, stage, pressure_error, contact_radius_error,
-                               contact_area_error, max_pressure_error)
+                               contact_area_error, max_pressure_error, step_error)
       .in("m", "indentation contact_radius lateral_displacement contact_radius_error")
       .in("rad", "twist")
-      .in("N", "normal_force lateral_force_x lateral_force_y force_error lateral_force_error")
+      .in("N",
+          "normal_force lateral_force_x lateral_force_y force_error step_error lateral_force_error")
       .in("N m", "torque_x torque_y torque_z spin_torque torque_error")
       .in("m^2", "contact_area contact_area_error")
       .in("Pa", "mean_pressure max_pressure pressure_error max_pressure_error")
       .in("s", "time")
       .if_known(
           "lateral_displacement twist spin_torque lateral_force_error torque_error stage "
-          "pressure_error contact_radius_error contact_area_error max_pressure_error");
+          "pressure_error contact_radius_error contact_area_error max_pressure_error step_error");
 }
 
 /// A curve of samples by increasing indentation, and then, where a lateral motion or a twist

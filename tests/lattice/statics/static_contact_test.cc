@@ -198,6 +198,42 @@ TEST(StaticContact, SticksWhereItFirstTouched) {
   EXPECT_EQ(contact.tie_force(0, moved(carried)).norm(), 0.0);
 }
 
+/// Until it is anchored a point that touches is held as it will be then, and by nothing where it
+/// only just touches.
+TEST(StaticContact, HoldsWhatTouchesAsItsAnchorWill) {
+  const LatticeBody body = confined_block(ModelKind::hookean, Kinematics::small, 1e8);
+  const lattice::ElasticSystem system(body);
+  const auto moved = [&](const Vector3& by) {
+    return on_particles(body, [&](const Vector3&) -> Vector3 { return by; });
+  };
+  for (const lattice::ContactLaw law :
+       {lattice::ContactLaw{ContactMode::stick}, lattice::ContactLaw{ContactMode::coulomb, 10.0},
+        lattice::ContactLaw{ContactMode::coulomb, 0.1}}) {
+    StaticContact contact(body, plane_above(height), law);
+    const VectorXd start = moved({0.0, 0.0, -4e-5}), end = moved({8e-5, -4e-5, -4e-5});
+    contact.begin_step(1e-5, moved({0.0, 0.0, 0.0}));  // away from the plane: nothing touches
+    contact.begin_step(5e-5, start);
+    contact.update_ties(end);
+    const Vector3 force = contact.tie_force(0, end);
+    const double energy = contact.energy(end);
+    EXPECT_GT(force.head<2>().norm(), 0.0);
+    VectorXd forces = VectorXd::Zero(body.unknowns());
+    contact.add(end, system, forces, nullptr);
+    const VectorXd push = moved({1e-9, 2e-9, 3e-9});
+    EXPECT_NEAR(contact.energy(end + push) - contact.energy(end - push), -2.0 * forces.dot(push),
+                1e-6 * std::abs(forces.dot(push)));
+    EXPECT_EQ(contact.anchor_touching(start, 1e-5, end), 4);
+    EXPECT_LT((contact.tie_force(0, end) - force).norm(), 1e-12 * force.norm());
+    EXPECT_GT(energy, 0.0);
+  }
+  StaticContact contact(body, plane_above(height), ContactMode::stick);
+  contact.begin_step(1e-5, moved({0.0, 0.0, 0.0}));
+  contact.begin_step(5e-5, moved({0.0, 0.0, -4e-5}));
+  const VectorXd just = moved({8e-5, 0.0, -5e-5 + 1e-13});
+  contact.update_ties(just);
+  EXPECT_LT(contact.tie_force(0, just).norm(), 1e-11 * body.outer[0].stiffness);
+}
+
 TEST(StaticContact, PlaneFollowsTheContract) {
   meshes::PressProtocol protocol;
   protocol.tilt = 0.4;
