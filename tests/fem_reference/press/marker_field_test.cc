@@ -16,6 +16,7 @@
 #include "fem_reference/press/mesh_history.h"
 #include "fem_reference/tip/job_mesh.h"
 #include "fem_reference/tip/tip_body.h"
+#include "meshes/press/marker_measures.h"
 #include "tests/fem_reference/press/pressing.h"
 #include "tests/fingers.h"
 
@@ -257,8 +258,11 @@ TEST(ContinuumPress, MarkersBelowASmallContactAreHertz) {
     }
     EXPECT_LE(history.worst_relative_error(), 5e-4);
     std::vector<Vector3> along;
-    for (const MarkerRow& row : history.best()[0].markers) {
+    fem_reference::PressState best = history.best()[0];
+    set_marker_errors(best, {0.0, 0.0, size}, best.markers);
+    for (const MarkerRow& row : best.markers) {
       const Vector3& u = row.displacement;
+      EXPECT_GT(row.error, 0.0);
       told = std::max(told, row.error / depth);
       along.emplace_back(Vector3(0.6 * u.x() - 0.8 * u.y(), 0.8 * u.x() + 0.6 * u.y(), -u.z()) /
                          depth);
