@@ -268,7 +268,8 @@ struct TableRead {
 bool continues(const TableRead& held, const TableRead& fitted) {
   const CurveSource &rows = *held.source, &before = *fitted.source;
   return !before.predicted && rows.rows && before.rows && rows.path == before.path &&
-         rows.block == before.block && held.table == fitted.table;
+         rows.block == before.block && rows.condition == before.condition &&
+         held.table == fitted.table;
 }
 
 void hold_back_last(FitSetup& fit, const LoadedConfig& loaded, const std::vector<TableRead>& read) {
@@ -312,7 +313,7 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
     }
   const auto predicted = [](const auto& each) { return each.first.predicted; };
   std::ranges::stable_partition(sources, std::not_fn(predicted));
-  if (std::ranges::all_of(sources, predicted))
+  if (!sources.empty() && std::ranges::all_of(sources, predicted))
     throw refused(loaded, "calibration.data", "",
                   "every press is held back (use = \"predict\"), and none is left to be fitted",
                   "say use = \"fit\" of one");

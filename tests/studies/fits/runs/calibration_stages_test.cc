@@ -195,7 +195,7 @@ namespace {
 
 /// One finger, pressed on the plane and on a ball; the lattice's own forces at 60 kPa, times a
 /// factor, behind touches that no file tells.
-class HeldBack : public testing::Test {
+class HeldBackFiles : public testing::Test {
  protected:
   std::vector<std::string> sets() const {
     return {"calibration.problem=experiment",
@@ -237,7 +237,7 @@ class HeldBack : public testing::Test {
 }  // namespace
 
 /// What is held back stands behind what is fitted, wherever the file names it.
-TEST_F(HeldBack, IsNoPartOfTheFit) {
+TEST_F(HeldBackFiles, IsNoPartOfTheFit) {
   measure("press.csv", 0.3, 1.0);
   measure("other.csv", 0.1, 1.0);
   describe("[[press]]\npath = \"other.csv\"\nuse = \"predict\"\n[[press]]\npath = \"press.csv\"\n");
@@ -254,7 +254,7 @@ TEST_F(HeldBack, IsNoPartOfTheFit) {
   EXPECT_TRUE(refuses<std::exception>([&] { setup(); }, {"every press is held back"}));
 }
 
-TEST_F(HeldBack, IsForetoldWithTheTouchOfItsOwnFile) {
+TEST_F(HeldBackFiles, IsForetoldWithTheTouchOfItsOwnFile) {
   measure("press.csv", 0.3, 1.0);
   measure("repeat.csv", 0.1, 1.0);
   measure("stiffer.csv", 0.2, 1.5);
@@ -276,7 +276,7 @@ TEST_F(HeldBack, IsForetoldWithTheTouchOfItsOwnFile) {
 }
 
 /// Further rows of a file that is fitted have its touch and its press.
-TEST_F(HeldBack, FurtherRowsArePartOfThePress) {
+TEST_F(HeldBackFiles, FurtherRowsArePartOfThePress) {
   measure("press.csv", 0.3, 1.0);
   describe(
       "[[press]]\npath = \"press.csv\"\nrows = [1, 20]\n[[press]]\npath = \"press.csv\"\n"
