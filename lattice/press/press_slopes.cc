@@ -39,7 +39,7 @@ Vector3 anchor_slope(const FirstTouch& touch, const Vector3& first, const Vector
 /// Of displacements with what touches: a round takes a tenth to a hundredth of what the one before
 /// has left.
 constexpr double settled = 1e-10;
-constexpr int max_rounds = 100;
+constexpr int most_rounds = 100;
 
 }  // namespace
 
@@ -104,7 +104,7 @@ void SlopeSystem::respond(EquilibriumSolver& solver, const StaticContact& contac
                           const VectorXd& displacement, const std::vector<FirstTouch>& touches,
                           const StateSlopes& start, StateSlopes& slopes) const {
   const MatrixXd pushes = forces(contact, displacement, slopes);
-  for (int round = 0; round < max_rounds; ++round) {
+  for (int round = 0; round < most_rounds; ++round) {
     const MatrixXd before = slopes.displacement;
     MatrixXd all = pushes;
     add_touching(touches, start, slopes, all);

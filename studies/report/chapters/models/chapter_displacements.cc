@@ -136,7 +136,7 @@ Figure side_figure(const DisplacementStudy& study, const std::vector<Displacemen
     figure.panels.push_back(std::move(panel));
   }
   figure.width = 860;
-  figure.height = 60 + 400 * int((names.size() + 1) / 2);
+  figure.height = 60 + 300 * int((names.size() + 1) / 2);
   return figure;
 }
 
