@@ -14,6 +14,9 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int max_iterations = 100;
+/// Then ties of points that touch stay as stiff as they are: one that a plane aside lifts where it
+/// is held and lowers where it is not would come and go for ever.
+constexpr int settled = 20;
 /// Gradients that cost as much as a new preconditioner (MEASUREMENTS).
 constexpr int preparation_cost = 8;
 constexpr int max_gradients = 400;
@@ -237,7 +240,7 @@ bool EquilibriumSolver::solve(StaticContact& contact, VectorXd& displacement, do
   double before = 0.0, stored = 0.0;
   for (int i = 0; i < max_iterations; ++i) {
     double contact_force = 0.0;
-    contact.update_ties(displacement);
+    contact.update_ties(displacement, i < settled);
     try {
       contact_force = own.evaluate(contact, displacement, &own.tangent);
     } catch (const meshes::NotConverged&) {

@@ -95,12 +95,12 @@ void StaticContact::move_feet(const VectorXd& displacement) {
   }
 }
 
-void StaticContact::update_ties(const VectorXd& displacement) {
+void StaticContact::update_ties(const VectorXd& displacement, bool shares) {
   for (std::size_t i = 0; holds() && i < body_->outer.size(); ++i) {
     if (anchored_[i] && !rubs()) continue;
     const double depth = std::max(-gap_and_normal(i, displacement).gap, 0.0);
     if (rubs()) limit_[i] = law_.friction * TiePush(body_->contact, depth).length;
-    if (!anchored_[i]) part_[i] = depth > 0.0 ? depth / (start_[i].gap + depth) : 0.0;
+    if (!anchored_[i] && shares) part_[i] = depth > 0.0 ? depth / (start_[i].gap + depth) : 0.0;
   }
 }
 

@@ -106,8 +106,8 @@ class StaticContact {
   /// Whether anything holds points across.
   bool holds() const { return law_.mode != meshes::ContactMode::frictionless; }
   /// From now on ties across are those of this displacement: as stiff as the ways have it of points
-  /// that touch, and giving way as the pushes have it.
-  void update_ties(const Eigen::VectorXd& displacement);
+  /// that touch, where `shares`, and giving way as the pushes have it.
+  void update_ties(const Eigen::VectorXd& displacement, bool shares = true);
   /// Puts feet where the step ends, were it to end at `displacement`.
   void move_feet(const Eigen::VectorXd& displacement);
   /// Coulomb: anchors of what slides follow; what does not touch has none.

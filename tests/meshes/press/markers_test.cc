@@ -165,7 +165,7 @@ TEST(MarkerErrors, GoWithThoseOfTheForces) {
 }
 
 TEST(MarkerDifferences, AreOfTheSameMarkersAlone) {
-  const std::vector<MarkerRow> two{moved(1, {}, 0.0), moved(2, {}, 0.0)};
+  const std::vector<MarkerRow> two{moved(1, Vector3::Zero(), 0.0), moved(2, Vector3::Zero(), 0.0)};
   std::vector<MarkerRow> other = two;
   other[1].place.x() += 1e-5;
   EXPECT_TRUE(marker_differences(two, other).empty());
