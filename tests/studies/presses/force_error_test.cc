@@ -183,9 +183,11 @@ TEST(ForceError, OfADisplacementIsAPartOfIt) {
   EXPECT_NEAR(error(2, 4.9e-3, 5.0 * down), share * 1e-3, 1e-12) << "as far as the obstacle";
   EXPECT_NEAR(error(2, 6e-3, down), share * 0.25e-3, 1e-12) << "(a/r)² of the indentation";
   EXPECT_NEAR(error(2, 12e-3, down), share * 0.2e-3, 1e-12) << "of the displacement";
-  EXPECT_NEAR(error(2, 0.0, {}), share * 1e-3, 1e-12) << "in the contact of all of the way";
+  EXPECT_NEAR(error(2, 0.0, fingertip::meshes::Vector3::Zero()), share * 1e-3, 1e-12)
+      << "in the contact of all of the way";
   // Aside the edge of what sticks counts, too.
-  EXPECT_GT(error(3, 0.0, {}), 1.5 * error(2, 0.0, {}));
+  EXPECT_GT(error(3, 0.0, fingertip::meshes::Vector3::Zero()),
+            1.5 * error(2, 0.0, fingertip::meshes::Vector3::Zero()));
 }
 
 TEST(ForceError, OfADisplacementIsItsDistanceFromTheContinuum) {
