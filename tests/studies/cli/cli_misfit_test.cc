@@ -58,7 +58,9 @@ json fitted(const Workplace& folder, const std::string& out, const std::string& 
       "calibrate --out " + out,
       {contact, "lattice.kinematics=small", "calibration.problem=experiment",
        "calibration.data=[\"" + data + "\"]", "calibration.parameters=[\"modulus\"]",
-       "calibration.candidates=[]", "calibration.forward=continuum", "reference.fields=false"},
+       "calibration.candidates=[]", "calibration.forward=continuum", "reference.fields=false",
+       // Of the default, told: an untold Poisson's ratio would be a known error of the model.
+       "rubber.youngs_modulus=40 gf/cm^2", "rubber.shear_modulus=14 gf/cm^2"},
       judged);
   return folder.json(out + "/calibration.json");
 }
