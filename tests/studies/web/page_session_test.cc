@@ -73,6 +73,7 @@ TEST(PageSession, SpeaksAsTheServerDoes) {
   PacedRig paced(small_press().setup, {true, 1.0, {}});
   LiveScene scene = scene_of(paced.rig());
   scene.reference = {{1e-3, 0.03, 1e-4}, {2e-3, 0.1, meshes::unknown}};
+  scene.reference_name = "continuum";
   EXPECT_EQ(greeting.front().bytes, encode_scene(scene));
 
   for (const char* text : {R"({"type":"step"})", R"({"type":"set","name":"depth","value":0.0005})",
