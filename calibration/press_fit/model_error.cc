@@ -93,6 +93,15 @@ void make_coarse(PressSetup& press, std::size_t depths = coarse_depths) {
   press.protocol.depth = press.protocol.samples.back();
 }
 
+/// Of something known at depths, straight between them.
+Eigen::VectorXd at_depths(const std::vector<double>& depths, const std::vector<double>& known,
+                          const std::vector<double>& wanted) {
+  Eigen::VectorXd result{Index(wanted.size())};
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    result(Index(i)) = meshes::interpolated(depths, known, wanted[i]);
+  return result;
+}
+
 /// Of `other` over `own`, known at the samples of `press`, at the `wanted` depths.
 Eigen::VectorXd excess(const PressSetup& press, const std::vector<double>& own,
                        const std::vector<double>& other, const std::vector<double>& wanted) {
@@ -101,10 +110,7 @@ Eigen::VectorXd excess(const PressSetup& press, const std::vector<double>& own,
     depths.push_back(press.protocol.samples[i]);
     ratio.push_back(other[i] / own[i] - 1.0);
   }
-  Eigen::VectorXd result{Index(wanted.size())};
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    result(Index(i)) = meshes::interpolated(depths, ratio, wanted[i]);
-  return result;
+  return at_depths(depths, ratio, wanted);
 }
 
 }  // namespace
@@ -211,10 +217,7 @@ Eigen::VectorXd change_between(PressSetup press, Described what, double low, dou
                             above = forces_with(press, what, high);
   std::vector<double> change;
   for (std::size_t i = 0; i < own.size(); ++i) change.push_back((above[i] - below[i]) / own[i]);
-  Eigen::VectorXd result{Index(wanted.size())};
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    result(Index(i)) = meshes::interpolated(press.protocol.samples, change, wanted[i]);
-  return result;
+  return at_depths(press.protocol.samples, change, wanted);
 }
 
 }  // namespace fingertip::calibration::inline press_fit

@@ -75,15 +75,13 @@ std::vector<double> changes_of(const KnownError& error, const PressSetup& press)
 
 std::vector<KnownError> untold_numbers(const FitInput& input) {
   std::vector<KnownError> untold;
-  const std::vector<calibration::MaterialParameter> sought = parameters_of(input);
   using enum Described;
   for (const Described number : {tip_radius, rod_radius, scale, obstacle_radius, poissons_ratio}) {
     if (std::ranges::find(input.known_errors, number, &KnownError::number) !=
             input.known_errors.end() ||
         (number == scale && input.base.geometry.is_dome()))
       continue;
-    if (number == poissons_ratio &&
-        std::ranges::find(sought, calibration::MaterialParameter::modulus) == sought.end())
+    if (number == poissons_ratio && !frees(input, calibration::MaterialParameter::modulus))
       continue;
     for (KnownError& each : by_value({.name = "", .number = number}, input)) {
       each.step = untold_step * (number == poissons_ratio ? 1.0 : each.value);

@@ -34,6 +34,11 @@ std::vector<MaterialParameter> parameters_of(const FitInput& input) {
   return parameters;
 }
 
+bool frees(const FitInput& input, calibration::MaterialParameter parameter) {
+  return std::ranges::find(input.options.free, parameter, &calibration::FreeParameter::parameter) !=
+         input.options.free.end();
+}
+
 bool seeks_moduli_alone(const FitInput& input) {
   return std::ranges::all_of(parameters_of(input), calibration::is_of_the_rubber);
 }

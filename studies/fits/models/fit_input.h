@@ -65,8 +65,8 @@ struct FitCurve : calibration::Curve {
   /// Of a press that is held back: the curve of the fit whose further rows it is, with its touch
   /// and its zero.
   std::optional<std::size_t> continues;
-  /// By FitInput::known_errors, how much each changes the force at every sample of its press,
-  /// relative. Empty: not at all.
+  /// For each of FitInput::known_errors, how much it changes the force at every sample of its
+  /// press, relative. Empty: not at all.
   std::vector<std::vector<double>> known_errors;
   /// Likewise, by how much a finite law exceeds the small-strain lattice that is fitted; empty
   /// where it is finite, and where one of the presses finds no equilibrium.
@@ -128,6 +128,9 @@ std::vector<calibration::Curve> curves_of(const FitInput& input);
 
 /// Of `input.options.free`, without those of rigs and relaxation, which stand behind them.
 std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input);
+
+/// Whether it is among what is sought.
+bool frees(const FitInput& input, calibration::MaterialParameter parameter);
 
 /// Whether forces are a modulus times a function of Poisson's ratio, of the lattice's ties, too,
 /// which are as stiff as its cells: few presses of every curve then tell everything.

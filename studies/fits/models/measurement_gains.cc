@@ -141,18 +141,12 @@ MatrixXd known_errors_at(const FitCurve& curve, const std::vector<std::vector<do
 MatrixXd known_errors_at_values(const FitInput& input) {
   MatrixXd all(0, Index(input.known_errors.size()));
   for (const FitCurve& curve : input.curves) {
-    std::vector<std::vector<double>> own = curve.known_errors;
-    own.resize(input.known_errors.size());
-    const MatrixXd rows =
-        known_errors_at(curve, own, depths_of_values(curve, start_of(input.options)));
+    const MatrixXd rows = known_errors_at(curve, curve.known_errors,
+                                          depths_of_values(curve, start_of(input.options)));
     all.conservativeResize(all.rows() + rows.rows(), Eigen::NoChange);
     all.bottomRows(rows.rows()) = rows;
   }
   return all;
-}
-
-bool has_model_error(const FitInput& input) {
-  return input.with_lattice_error || !input.known_errors.empty();
 }
 
 namespace {

@@ -44,9 +44,6 @@ std::vector<lattice::PressSetup> presses_of_values(const FitInput& input);
 /// Relative changes of the forces at the values of all curves, a column for each known error.
 Eigen::MatrixXd known_errors_at_values(const FitInput& input);
 
-/// Whether there are any, or lattices that miss something.
-bool has_model_error(const FitInput& input);
-
 /// Changes that are known at a press's samples at other indentations, a column each.
 Eigen::MatrixXd known_errors_at(const FitCurve& curve,
                                 const std::vector<std::vector<double>>& at_samples,

@@ -188,7 +188,7 @@ Eigen::VectorXd values_at_start(const FitInput& input, const std::vector<Forward
 /// model make it. Errors are relative to forces: at first to those measured, then, lest noise weigh
 /// itself, to those of the start.
 calibration::CurveFit search(FitInput& input, const FitModels& models) {
-  const bool errors = has_model_error(input);
+  const bool errors = input.with_lattice_error || !input.known_errors.empty();
   if (errors) put_model_error(input, calibration::all_values(input.curves));
   start_from_data(input, models);
   if (errors) put_model_error(input, values_at_start(input, models.addresses()));

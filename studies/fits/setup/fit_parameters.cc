@@ -108,11 +108,6 @@ double scale_of(MaterialParameter parameter, const lattice::PressSetup& base) {
   }
 }
 
-bool frees(const FitInput& input, MaterialParameter parameter) {
-  return std::ranges::find(input.options.free, parameter, &FreeParameter::parameter) !=
-         input.options.free.end();
-}
-
 }  // namespace
 
 std::vector<FreeParameter> free_list(const LoadedConfig& loaded, const lattice::PressSetup& base) {

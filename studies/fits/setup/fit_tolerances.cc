@@ -38,9 +38,7 @@ bool ratio_is_told(const LoadedConfig& loaded) {
 
 /// Of Poisson's ratio where it is held and not known.
 std::optional<KnownError> of_ratio(const LoadedConfig& loaded, const FitInput& input) {
-  const std::vector<calibration::MaterialParameter> sought = parameters_of(input);
-  const bool held =
-      std::ranges::find(sought, calibration::MaterialParameter::modulus) != sought.end();
+  const bool held = frees(input, calibration::MaterialParameter::modulus);
   const bool ranges = loaded.entries.at("calibration.poisson_range").given;
   if (!held || (ratio_is_told(loaded) && !ranges)) return std::nullopt;
   KnownError error{.name = "", .number = Described::poissons_ratio};
@@ -62,10 +60,8 @@ void add_tolerances(const LoadedConfig& loaded, FitInput& input) {
   if (const auto ratio = of_ratio(loaded, input)) numbers.push_back(*ratio);
   for (const KnownError& number : numbers)
     for (const KnownError& each : by_value(number, input)) {
-      for (FitCurve& curve : input.curves) {
-        curve.known_errors.resize(input.known_errors.size());
+      for (FitCurve& curve : input.curves)
         curve.known_errors.push_back(changes_of(each, curve.press));
-      }
       input.known_errors.push_back(each);
     }
 }
