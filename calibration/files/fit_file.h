@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calibration/files/displacement_fit_file.h"
 #include "calibration/files/moduli_file.h"
 #include "meshes/tables/file_fields.h"
 
@@ -210,13 +211,13 @@ FINGERTIP_FIELDS(ErrorsEntry, noise, over_told, misfit, misfit_upper, misfit_see
 
 /// What an error of a number that describes the presses does to the estimates.
 struct SensitivityEntry {
-  std::string name;  ///< "tip_radius"
-  /// The number as described, and a step of it [m, rad, 1]: a standard deviation where it counts.
+  std::string name, unit;  ///< "tip_radius", "m"
+  /// The number as described, and a step of it: a standard deviation where it counts.
   double value = meshes::unknown, step = meshes::unknown;
   bool counts = false;              ///< in the intervals
   meshes::Entries<double> changes;  ///< of the rubber's estimates, were it larger by the step
 };
-FINGERTIP_FIELDS(SensitivityEntry, name, value, step, counts, changes);
+FINGERTIP_FIELDS(SensitivityEntry, name, unit, value, step, counts, changes);
 /// An estimate in `unit`.
 struct EstimateEntry {
   std::string name, unit;
@@ -325,6 +326,7 @@ struct FitFile {
   std::vector<NextEntry> next;
   std::optional<ContactEntry> contact;
   std::vector<Repeats> repeats;
+  std::optional<DisplacementFitFile> displacements;  ///< measured beside the forces, or alone
   std::string statement;
 
   bool empty() const { return problem.empty(); }
@@ -337,10 +339,10 @@ consteval auto fields_of(const FitFile*) {
              model_error, converged, poissons_ratio_bound, residual_deviation, minima, x_quantity,
              y_quantity, curves, residuals, influence, profile, iterations, evaluations, wall_time,
              validity, failed, rig, lack_of_fit, errors, sensitivities, predicted, next, contact,
-             repeats, statement)
+             repeats, displacements, statement)
       .newer(
           "rubber model_error converged poissons_ratio_bound failed rig lack_of_fit errors "
-          "sensitivities predicted next contact repeats");
+          "sensitivities predicted next contact repeats displacements");
 }
 
 /// What a fit to moduli, which has no curves, has in common with others.

@@ -57,6 +57,16 @@ constexpr auto names_of(Described) {
 }
 using meshes::name, meshes::values;
 
+/// SI.
+constexpr const char* unit_of(Described what) {
+  switch (what) {
+    case Described::scale:
+    case Described::poissons_ratio: return "1";
+    case Described::tilt: return "rad";
+    default: return "m";
+  }
+}
+
 /// Whether the press has it: radii of the finger are a dome's, the obstacle's those of what is
 /// curved.
 bool has(const lattice::PressSetup& press, Described what);

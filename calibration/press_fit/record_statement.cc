@@ -267,10 +267,11 @@ std::string sensitivities(const FitRecord& record, bool counting) {
   std::string text;
   for (const SensitivityEntry& each : record.sensitivities) {
     if (each.counts != counting) continue;
-    const bool of_itself = each.value > 0.0 && each.name.find("ratio") == std::string::npos;
+    // Of what is no size the step itself; a scale is 1 as described.
+    const bool of_itself = each.value > 0.0 && (each.unit != "1" || each.value == 1.0);
     text += (text.empty() ? " " : "; ") +
-            (of_itself ? percent(each.step / each.value) : rounded(each.step, 2)) + " more of " +
-            each.name + " would make";
+            (of_itself ? percent(each.step / each.value) : quantity_text(each.step, each.unit, 2)) +
+            " more of " + each.name + " would make";
     for (const auto& [parameter, change] : each.changes) {
       const auto place =
           std::ranges::find(record.fit.labels, parameter) - record.fit.labels.begin();

@@ -16,9 +16,8 @@ using Json = nlohmann::json;
 /// Meshes that are finer by less than this factor for a sample count as one.
 constexpr double min_refinement = 1.2;
 
-/// Excess of a mesh's energy over its indicator (MeshHistory::error), with a factor of safety of
-/// two.
-constexpr double excess_per_indicator = 2.0;
+/// Most that a mesh's energy is in excess, over its indicator (MeshHistory::error).
+constexpr double excess_per_indicator = 2.0, excess_of_stick = 1.0;
 
 /// The radius of a contact with a free edge is off by up to this share of the node spacing there,
 /// however meshes agree, for its nodes come and go; 95 of 100 are within 0.23 (MEASUREMENTS.md).
@@ -78,8 +77,8 @@ ForceError MeshHistory::error(std::size_t index) const {
   ForceError error = contact_error(index, &PressState::normal_force);
   const PressState* state = finest_state(index);
   if (std::isnan(error.value) || state->contact.empty()) return error;
-  const double excess =
-      excess_per_indicator * state->indicator / state->energy * state->normal_force;
+  const double excess = (sticks_ ? excess_of_stick : excess_per_indicator) * state->indicator /
+                        state->energy * state->normal_force;
   error.value = safety_ * std::max(error.value, excess);
   if (index < step_errors_.size()) error.value += step_errors_[index] * state->normal_force;
   return error;

@@ -27,9 +27,10 @@ class MeshHistory {
   using Value = double meshes::PressSample::*;
 
   /// `safety` multiplies every error of a mesh. Forces below `min_share` of the largest need not
-  /// be known better than one of that size: where a press ends unloaded, or nearly.
-  explicit MeshHistory(double safety = 1.0, double min_share = 0.0)
-      : safety_(safety), min_share_(min_share) {}
+  /// be known better than one of that size: where a press ends unloaded, or nearly. `sticks`: all
+  /// that touches does.
+  explicit MeshHistory(double safety = 1.0, double min_share = 0.0, bool sticks = false)
+      : safety_(safety), min_share_(min_share), sticks_(sticks) {}
   /// What the steps in time add to the errors, over the forces of the samples; none at first.
   void set_step_errors(std::vector<double> errors) { step_errors_ = std::move(errors); }
   const std::vector<double>& step_errors() const { return step_errors_; }
@@ -57,10 +58,10 @@ class MeshHistory {
   ///
   /// b: no difference shows what no refinement has touched. F is the derivative of the energy E by
   /// the indentation, and a mesh stores too much of it everywhere; as both grow with like powers of
-  /// the indentation, F is too large by about the share that E is. So b = 2 F S/E, S the finest
-  /// mesh's indicator (PressState::indicator). Against axisymmetric solutions the mean excess of
-  /// solids is 0.4 ... 1.7 F S/E without friction at small strain, -0.9 ... 0.9 with stick. It is
-  /// no correction: its factor varies with mesh and rubber.
+  /// the indentation, F is too large by about the share that E is. So b = 2 F S/E, of what sticks
+  /// F S/E, S the finest mesh's indicator (PressState::indicator). Against axisymmetric solutions
+  /// the mean excess of solids is 0.4 ... 1.7 F S/E without friction at small strain, -0.9 ... 0.9
+  /// with stick. It is no correction: its factor varies with mesh and rubber.
   ForceError error(std::size_t index) const;
   /// Of the contact radius [m] and the largest pressure [Pa], NaN while that of the force is: from
   /// the meshes in the same way, but not less than three floors. Both: the relative error of the
@@ -94,6 +95,7 @@ class MeshHistory {
 
   std::vector<MeshRecord> meshes_;
   double safety_, min_share_;
+  bool sticks_;
   std::vector<double> step_errors_;
 };
 

@@ -1,5 +1,6 @@
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -88,7 +89,7 @@ class PressRun : Run {
   /// Before anything but the mesh is made.
   PressCost cost() {
     const double unknowns = begin();
-    return {unknowns, work_.expected(0.0)};
+    return {unknowns, work_.expected(0.0, places_.size())};
   }
 
   RunOutcome carry_out() {
@@ -136,7 +137,10 @@ class PressRun : Run {
                                : "refining the mesh: the force may be off by " + percent(worst));
       const std::size_t cells = press.mesh().cells;
       if (max_growth * double(press.mesh().unknowns) > job_.max_unknowns) write_pictures(press);
-      unwritten_.clear();
+      // To what is known well enough no finer mesh is pressed.
+      std::erase_if(unwritten_, [until = is_costly() ? last_unknown() : places_.size()](
+                                    const auto& each) { return each.first < until; });
+      write_pictures(press);
       if (!press.refine(refined_share, samples_to_improve()))
         give_up(worst,
                 "a finer one would exceed reference.max_unknowns = " + to_text(job_.max_unknowns),
@@ -148,15 +152,18 @@ class PressRun : Run {
     }
   }
 
-  /// Empty, for all, until every sample has an estimate.
-  std::vector<char> samples_to_improve() const {
+  /// Empty, for all, until every sample has an estimate; of those on the mesh at hand.
+  std::vector<char> samples_to_improve() {
     if (history_.meshes().size() < fewest_meshes) return {};
-    return history_.beyond(job_.tolerance);
+    std::vector<char> flags = history_.beyond(job_.tolerance);
+    flags.resize(history_.finest().states.size());
+    return flags;
   }
 
   MeshHistory empty_history() const {
     MeshHistory history(job_.axisymmetric() ? meridian_safety : 1.0,
-                        job_.protocol.program.empty() ? 0.0 : min_share);
+                        job_.protocol.program.empty() ? 0.0 : min_share,
+                        job_.protocol.contact == meshes::ContactMode::stick);
     const double error = ContinuumPress::step_error(job_);
     if (error > 0.0) history.set_step_errors(std::vector<double>(places_.size(), error));
     return history;
@@ -208,18 +215,31 @@ class PressRun : Run {
   }
 
   void report(const char* stage, std::size_t done, std::size_t total, const std::string& message) {
-    progress_.report(stage, done, total, message, work_.expected(progress_.wall_time()));
+    progress_.report(stage, done, total, message, work_.expected(progress_.wall_time(), wanted()));
+  }
+
+  /// How many samples the mesh at hand is pressed through: all, until each has an estimate; then,
+  /// where every sample costs many factors, up to the last that is not known well enough. Of the
+  /// others a coarser mesh tells.
+  std::size_t wanted() const {
+    const bool all = !job_.estimate_error || history_.meshes().size() <= fewest_meshes;
+    return all || !is_costly() ? places_.size() : last_unknown();
+  }
+  bool is_costly() const { return job_.strain == Strain::finite && !job_.axisymmetric(); }
+  std::size_t last_unknown() const {
+    std::vector<char> beyond = history_.beyond(job_.tolerance);
+    beyond.resize(places_.size(), 1);
+    return std::size_t(beyond.rend() - std::find(beyond.rbegin(), beyond.rend(), 1));
   }
 
   void press_on(ContinuumPress& press) {
-    const std::size_t total = places_.size();
-    for (std::size_t i = history_.finest().states.size(); i < total; ++i) {
+    for (std::size_t i = history_.finest().states.size(); i < wanted(); ++i) {
       PressState state = press.advance(places_[i]);
       state.stage = course_.stage(i);
       history_.add(std::move(state));
       keep_sample(press, i);
       work_.pressed();
-      report("press", i + 1, total,
+      report("press", i + 1, wanted(),
              "mesh " + std::to_string(history_.meshes().size()) + ": " +
                  sample_text(history_.finest().states[i]));
     }
@@ -248,16 +268,21 @@ class PressRun : Run {
   void write_pictures(const ContinuumPress& press) {
     if (unwritten_.empty()) return;
     const bool may_be_last = !job_.estimate_error || history_.meshes().size() >= fewest_meshes;
+    const std::size_t last = unwritten_.back().first;
+    const bool deepest = last >= last_pictured_;
+    last_pictured_ = std::max(last, last_pictured_);
     if (job_.write_fields && may_be_last) {
       const fs::path fields = make_folder("fields");
       for (const auto& [index, state] : unwritten_) {
         press.write_fields(*state, fields / field_name(index));
         progress_.report("fields", index + 1, places_.size(), field_name(index));
       }
-      if (first_process()) write_field_series(shown_until(unwritten_.back().first), folder_);
+      if (first_process()) write_field_series(shown_until(last_pictured_), folder_);
     }
-    const std::vector<SectionRow> section = press.section(*unwritten_.back().second);
-    if (first_process()) meshes::write_rows(section, folder_ / "section.csv");
+    if (deepest) {
+      const std::vector<SectionRow> section = press.section(*unwritten_.back().second);
+      if (first_process()) meshes::write_rows(section, folder_ / "section.csv");
+    }
     unwritten_.clear();
   }
 
@@ -313,6 +338,7 @@ class PressRun : Run {
     press.load(folder_ / place);
     history_ = MeshHistory::from_json(json.at("mesh_history"), empty_history());
     history_.set_step_errors(json.value("step_errors", std::vector<double>()));
+    if (history_.meshes().size() > fewest_meshes) last_pictured_ = places_.size() - 1;
     work_.resume(double(press.mesh().unknowns), history_.meshes().size(),
                  history_.finest().states.size());
     report("press", history_.finest().states.size(), places_.size(),
@@ -350,6 +376,7 @@ class PressRun : Run {
   PressWork work_;
   Clock::time_point last_checkpoint_ = Clock::now(), last_tables_;
   std::vector<std::pair<std::size_t, std::shared_ptr<const PressSnapshot>>> unwritten_;
+  std::size_t last_pictured_ = 0;  ///< the deepest sample that fields and section show
   meshes::MeshQuality mesh_quality_;
   MeshHistory history_;
 };

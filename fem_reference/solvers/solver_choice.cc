@@ -125,9 +125,9 @@ void PressWork::refine() {
   pressed_ = 0;
 }
 
-Expected PressWork::expected(double wall_time) const {
+Expected PressWork::expected(double wall_time, std::size_t wanted) const {
   SolutionCost cost = this->cost();
-  double work = double(samples_ - pressed_) * cost.sample;
+  double work = double(wanted - std::min(pressed_, wanted)) * cost.sample;
   if (!assembled_) work += cost.mesh;
   double unknowns = unknowns_, memory = cost.memory;
   for (std::size_t number = number_; number < fewest_meshes_; ++number) {

@@ -49,9 +49,9 @@ class PressWork {
   void pressed();
   void refine();
 
-  /// Of the meshes that are sure to follow, at the pace of the work so far, which took `wall_time`
-  /// [s].
-  Expected expected(double wall_time) const;
+  /// Of the mesh at hand, on which so many samples are wanted, and those that are sure to follow,
+  /// at the pace of the work so far, which took `wall_time` [s].
+  Expected expected(double wall_time, std::size_t wanted) const;
 
  private:
   SolutionCost cost() const;  ///< of the mesh at hand

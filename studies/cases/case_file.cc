@@ -28,8 +28,7 @@ const std::vector<RunKind>& run_kinds() {
        "",
        "",
        false,
-       {"verb", "beside", "varied", "when", "times", "exhibit", "displacements", "compression",
-        "slip"}},
+       {"verb", "beside", "varied", "when", "times", "exhibit", "displacements"}},
       {"variant", "press", "variants", true, {"beside", "displacements", "snapshots"}},
       {"fit", "fit", "fits", true, {}},
       {"prediction", "press", "", true, {}},  // below each fit

@@ -49,9 +49,7 @@ struct CaseRun {
   std::string law = {};     ///< of a fit of laws: which one is measured; empty: every one
   std::string test = {};    ///< likewise, by which of the tests; empty: by all
   std::string displacements =
-      {};  ///< measured ones, whose points are its markers; a file, or empty
-  /// Of a fit to displacements, load by load: a factor of the field is fitted, and slip.
-  bool compression = false, slip = false;
+      {};                   ///< measured ones, whose points are its markers; a file, or empty
   bool continuum = false;   ///< measured against a continuum: the transient one at the same speed
   bool snapshots = false;   ///< drawn in the report; of a variant its contact
   bool exhibit = false;     ///< may fail to converge without failing the case

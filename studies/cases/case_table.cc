@@ -48,12 +48,9 @@ const std::map<std::string, std::string CaseRun::*>& run_texts() {
 }
 
 const std::map<std::string, bool CaseRun::*>& run_flags() {
-  static const std::map<std::string, bool CaseRun::*> flags = {
-      {"continuum", &CaseRun::continuum},
-      {"snapshots", &CaseRun::snapshots},
-      {"exhibit", &CaseRun::exhibit},
-      {"compression", &CaseRun::compression},
-      {"slip", &CaseRun::slip}};
+  static const std::map<std::string, bool CaseRun::*> flags = {{"continuum", &CaseRun::continuum},
+                                                               {"snapshots", &CaseRun::snapshots},
+                                                               {"exhibit", &CaseRun::exhibit}};
   return flags;
 }
 

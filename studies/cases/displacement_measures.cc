@@ -9,54 +9,23 @@
 
 namespace fingertip::studies::inline cases {
 
-namespace {
-
 namespace fs = std::filesystem;
 using calibration::DisplacementDistance;
-using meshes::Vector3;
 
-/// Displacements of all points in a press, per sample measured; empty where it has none.
-std::vector<std::vector<Vector3>> computed_fields(const DisplacementFile& measured,
-                                                  const fs::path& place) {
+MarkerFields computed_fields(const DisplacementFile& measured, const fs::path& place) {
   const fs::path file = place / "markers.csv";
   return fields_of(fs::exists(file) ? meshes::read_rows<meshes::MarkerRow>(file)
                                     : std::vector<meshes::MarkerRow>(),
                    measured);
 }
 
-std::vector<DisplacementDistance> distances_in(const DisplacementFile& measured,
-                                               const fs::path& place) {
-  const auto fields = computed_fields(measured, place);
-  std::vector<DisplacementDistance> found(fields.size());
-  for (std::size_t s = 0; s < fields.size(); ++s)
-    if (!fields[s].empty())
-      found[s] =
-          calibration::distance_of(measured.places, measured.samples[s].displacement, fields[s]);
-  return found;
-}
-
-}  // namespace
-
 DisplacementComparison compare_displacements(std::shared_ptr<const DisplacementFile> measured,
                                              const fs::path& press, const fs::path& reference) {
-  DisplacementComparison result{.press = distances_in(*measured, press),
-                                .reference = distances_in(*measured, reference)};
+  DisplacementComparison result{
+      .press = distances_of(*measured, computed_fields(*measured, press)),
+      .reference = distances_of(*measured, computed_fields(*measured, reference))};
   result.measured = std::move(measured);
   return result;
-}
-
-std::vector<DisplacementRow> displacement_rows(const DisplacementFile& measured,
-                                               const std::vector<DisplacementDistance>& distances,
-                                               const std::string& name, const fs::path& place) {
-  const auto fields = computed_fields(measured, place);
-  std::vector<DisplacementRow> rows;
-  for (std::size_t s = 0; s < fields.size(); ++s)
-    for (std::size_t i = 0; i < fields[s].size(); ++i) {
-      const Vector3& seen = distances[s].displacement[i];
-      rows.push_back({name, measured.samples[s].indentation, i + 1, measured.places[i], seen,
-                      fields[s][i], (seen - fields[s][i]).norm()});
-    }
-  return rows;
 }
 
 double largest_of_samples(const std::vector<DisplacementDistance>& samples,

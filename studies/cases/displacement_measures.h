@@ -3,12 +3,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "calibration/press_fit/displacements.h"
-#include "studies/files/displacement_study.h"
-#include "studies/measurements/displacement_file.h"
+#include "studies/fits/runs/displacement_study.h"
 
 namespace fingertip::studies::inline cases {
 
@@ -27,11 +25,9 @@ DisplacementComparison compare_displacements(std::shared_ptr<const DisplacementF
                                              const std::filesystem::path& press,
                                              const std::filesystem::path& reference);
 
-/// Point by point, of the press in `place`.
-std::vector<DisplacementRow> displacement_rows(
-    const DisplacementFile& measured,
-    const std::vector<calibration::DisplacementDistance>& distances, const std::string& name,
-    const std::filesystem::path& place);
+/// Displacements of all points in the press of a run folder, per sample measured; empty where it
+/// has none.
+MarkerFields computed_fields(const DisplacementFile& measured, const std::filesystem::path& place);
 
 /// The largest of a number of all samples; NaN where one of them is unknown.
 double largest_of_samples(const std::vector<calibration::DisplacementDistance>& samples,

@@ -101,18 +101,15 @@ bool is_drawn(const CaseRun& run) {
   return run.is("variant") && run.snapshots;
 }
 
-/// The measured points are the press's markers, and its samples those that were measured.
-void put_markers(const DisplacementFile& measured, const meshes::Geometry& geometry,
-                 const std::string& place, meshes::PressProtocol& protocol) {
+/// Where displacements were measured the press has a sample.
+void check_samples(const DisplacementFile& measured, const meshes::PressProtocol& protocol,
+                   const std::string& place) {
   for (const calibration::MeasuredDisplacements& sample : measured.samples)
     if (std::ranges::find(protocol.samples, sample.indentation) == protocol.samples.end())
       throw ConfigError({"press.samples", "",
                          "displacements were measured at " + meshes::to_text(sample.indentation) +
                              " m, where no sample is",
                          "put it among the samples", place});
-  if (const auto broken = meshes::marker_violations(measured.places, geometry); !broken.empty())
-    throw ConfigError(broken);
-  protocol.markers = measured.places;
 }
 
 /// Continua first, then the longest, so that the workers end together.
@@ -182,6 +179,7 @@ void Planner::add_press(const LoadedConfig& loaded, RunResult& result) {
   result.setup = press_setup(loaded);
   if (!run.displacements.empty()) {
     result.displacements.measured = measured(run);
+    check_samples(*result.displacements.measured, result.setup.protocol, run.place);
     put_markers(*result.displacements.measured, result.setup.geometry, run.place,
                 result.setup.protocol);
   }
@@ -212,23 +210,6 @@ std::shared_ptr<const DisplacementFile> Planner::measured(const CaseRun& run) {
   std::shared_ptr<const DisplacementFile>& file = measured_[run.displacements];
   if (!file) file = std::make_shared<const DisplacementFile>(read_displacements(run.displacements));
   return file;
-}
-
-/// Poisson's ratio from what was measured, by the continuum or the lattice: calibration.forward.
-DisplacementFitInput Planner::displacements_of(const LoadedConfig& loaded, const CaseRun& run) {
-  DisplacementFitInput input;
-  input.measured = *measured(run);
-  input.place = "ratios/" + as_folder(run.name);
-  input.by_lattice = loaded.config.calibration.forward == ForwardKind::lattice;
-  input.freed = {run.compression, run.slip};
-  if (input.by_lattice)
-    input.press = press_setup(loaded);
-  else
-    input.continuum = continuum_beside(loaded, lattice::Kinematics::finite);
-  const meshes::Geometry& geometry = loaded.config.press.geometry;
-  put_markers(input.measured, geometry, run.place,
-              input.by_lattice ? input.press.protocol : input.continuum.protocol);
-  return input;
 }
 
 /// taxels.csv stands in the folder of a job, which does not know of it.
@@ -274,7 +255,9 @@ Job Planner::job_of(const LoadedConfig& loaded, RunResult& result) {
   if (verb == "reference") return reference_job(continuum_setup(loaded));
   if (verb == "laws") return law_job(laws_of(loaded, *result.run));
   if (verb == "verification") return verification_job();
-  if (verb == "displacements") return displacement_job(displacements_of(loaded, *result.run));
+  if (verb == "displacements")
+    return displacement_job(displacement_input(loaded, *measured(*result.run),
+                                               "ratios/" + as_folder(result.run->name)));
   if (verb == "moduli")
     return moduli_job(config.press.rubber, fit_options(loaded, config.press.lattice.model));
   const auto constants_of = [&](const char* model) {

@@ -11,7 +11,6 @@
 
 #include "studies/cases/run_result.h"
 #include "studies/fits/runs/calibration_stages.h"
-#include "studies/fits/runs/displacement_job.h"
 #include "studies/jobs/session.h"
 
 namespace fingertip::studies::inline cases {
@@ -55,7 +54,6 @@ class Planner {
   void add(const CaseRun& run);
   void add_press(const LoadedConfig& loaded, RunResult& result);
   std::shared_ptr<const DisplacementFile> measured(const CaseRun& run);
-  DisplacementFitInput displacements_of(const LoadedConfig& loaded, const CaseRun& run);
   void keep_skin(const RunResult& result, const std::string& folder);
   void add_fit(const LoadedConfig& loaded, RunResult result);
   void add_prediction(const CaseRun& prediction, const RunResult& fit);

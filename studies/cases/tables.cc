@@ -112,44 +112,23 @@ void write_later(const Members& variants, const std::filesystem::path& file) {
   if (!rows.empty()) meshes::write_rows(rows, file);
 }
 
-/// Of every press, and of the continua beside them.
-std::vector<DisplacementEntry> distances_of(const std::vector<Displaced>& all) {
-  std::vector<DisplacementEntry> list;
-  for (const Displaced& each : all)
-    for (std::size_t s = 0; s < each.distances->size(); ++s) {
-      const calibration::DisplacementDistance& own = (*each.distances)[s];
-      list.push_back({each.name, each.measured->samples[s].indentation, own.rms, own.largest,
-                      own.farthest + 1, own.size, own.ratio, own.turn});
-    }
-  return list;
-}
-
-std::vector<RatioEntry> ratios_of(const Members& runs) {
-  std::vector<RatioEntry> list;
-  for (const RunResult* fit : runs)
-    if (const auto& found = fit->ratio; std::isfinite(found.poissons_ratio))
-      list.push_back({fit->run->name, fit->folder, found.model, found.strain,
-                      fmt::format("{}", fmt::join(found.freed, ", ")), found.poissons_ratio,
-                      found.lower, found.upper, found.at_bound, found.noise, found.misfit,
-                      found.statement});
-  return list;
-}
-
 /// displacements.csv and distances.json, where any were measured.
 void write_displacements(const RunResults& results, const std::filesystem::path& folder) {
   const std::vector<Displaced> all = displaced(members(results, "variant"));
   if (all.empty()) return;
   std::vector<DisplacementRow> rows;
-  for (const Displaced& each : all)
-    std::ranges::move(
-        displacement_rows(*each.measured, *each.distances, each.name, folder / each.folder),
-        std::back_inserter(rows));
-  meshes::write_rows(rows, folder / "displacements.csv");
-  DisplacementStudy study{distances_of(all), std::nullopt, ratios_of(members(results, "run"))};
-  if (const DisplacementFile& file = *all.front().measured; !file.grid.empty()) {
-    const calibration::GridScatter found = calibration::grid_scatter(file.grid, file.places);
-    study.scatter_at_rest = ScatterEntry{found.rms, found.largest, found.pitch};
+  DisplacementStudy study{{}, scatter_at_rest(*all.front().measured), {}};
+  for (const Displaced& each : all) {
+    const MarkerFields fields = computed_fields(*each.measured, folder / each.folder);
+    std::ranges::move(rows_of(*each.measured, *each.distances, fields, each.name),
+                      std::back_inserter(rows));
+    std::ranges::move(entries_of(*each.measured, *each.distances, each.name),
+                      std::back_inserter(study.distances));
   }
+  for (const RunResult* fit : members(results, "run"))
+    if (std::isfinite(fit->ratio.poissons_ratio))
+      study.poissons_ratios.push_back(ratio_entry(fit->ratio, fit->run->name, fit->folder));
+  meshes::write_rows(rows, folder / "displacements.csv");
   meshes::write_json_file(study, folder / "distances.json");
 }
 

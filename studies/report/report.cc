@@ -203,7 +203,7 @@ class PageMaker {
   Page calibration_page() {
     return made("Soft fingertip: fitted to curves",
                 "What curves of force tell of a rubber or of a lattice, and what they leave open",
-                Makers{});
+                {[this] { return own_displacements(); }});
   }
 
   /// Presses under controllers, or with prescribed motion, one integrator beside the other.

@@ -208,6 +208,11 @@ std::string verdict_text(const std::filesystem::path& run_folder) {
   } else if (!run.summary.materials.empty()) {
     text = tables_text(materials_chapter(read_materials(run, reader)), {"materials"});
   } else if (!calibration.empty() && run.models.empty()) {
+    text =
+        tables_text(displacements_chapter(
+                        reader.take<DisplacementStudy>(reader.json(run_folder / "distances.json")),
+                        reader.rows<DisplacementRow>(run_folder / "displacements.csv")),
+                    {"ratios", "distances"});
     for (const Chapter& chapter : fit_chapters(calibration))
       text += tables_text(chapter, {"parameters", "predicted", "next"});
     text += tables_text(transfer_chapter(calibration), {"transfer"});

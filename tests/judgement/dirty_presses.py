@@ -721,7 +721,8 @@ def softening(s):
 @kind("either")
 def another_law(s):
     """Gent's, whose chains end; at rest the same E."""
-    s.finger = {"further": ("rubber.law=gent", f"rubber.gent_jm={s.random.choice([1, 3])}")}
+    s.finger = {"further": ("rubber.law=gent", "rubber.volumetric=quadratic",
+                            f"rubber.gent_jm={s.random.choice([1, 3])}")}
     rows = s.rows()
     s.finger = {}
     s.measured(rows)

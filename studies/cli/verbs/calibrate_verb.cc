@@ -58,20 +58,26 @@ void print_rubber(const ordered_json& content) {
              fmt::arg("u", stress.ascii));
 }
 
+/// Displacements alone do not.
+bool tells_stiffness(const ordered_json& content) {
+  return !content.contains("displacements") || !content["curves"].empty();
+}
+
 int verdict_of(const ordered_json& content, bool written) {
   return verdict(content.value("failed", std::vector<std::string>()),
-                 content.value("converged", true), written);
+                 content.value("converged", true),
+                 tells_stiffness(content) ? std::optional(written) : std::nullopt);
 }
 
 }  // namespace
 
-int verdict(const std::vector<std::string>& failed, bool converged, bool written) {
+int verdict(const std::vector<std::string>& failed, bool converged, std::optional<bool> written) {
   for (const std::string& reason : failed)
     fmt::print(stderr, "fingertip: not accepted: {}\n", in_shown_units(reason, Spelling::terminal));
-  if (!failed.empty())
+  if (!failed.empty() && written)
     fmt::print(stderr, "fingertip: {}\n",
-               written ? "material.toml is written as --force asks, and says so"
-                       : "no material.toml is written; --force writes it all the same");
+               *written ? "material.toml is written as --force asks, and says so"
+                        : "no material.toml is written; --force writes it all the same");
   if (!converged) return 3;
   return failed.empty() ? 0 : 4;
 }
@@ -97,8 +103,10 @@ int run_calibrate(const CommandLine& line) {
     fmt::print("{}\n\n",
                in_shown_units(content["statement"].get<std::string>(), Spelling::terminal));
     fmt::print("{}", report::verdict_text(folder));
-    print_rubber(content);
-    print_constants(content);
+    if (tells_stiffness(content)) {
+      print_rubber(content);
+      print_constants(content);
+    }
     if (!computed) fmt::print("(result from an earlier run with the same input)\n");
     fmt::print("run folder: {}\n", folder.string());
     return verdict_of(content, written);

@@ -28,7 +28,8 @@ Key problem_key() {
 Key data_key() {
   return with_rule(
       entry("data", any,
-            "measured CSV files, units in the header, or TOML files that describe such",
+            "measured CSV files, units in the header, or TOML files that describe such: forces of "
+            "presses, and displacements of points",
             &CalibrationSettings::data),
       "for experiment and damping; paths are relative to this file", {});
 }
@@ -182,7 +183,9 @@ std::vector<Key> calibration_keys() {
           "factors on the ties; retardation_time. experiment and curve know all but the "
           "last, damping the last alone. experiment knows besides relaxation: shares and times of "
           "the branches of rubber.relaxation, of one if it has none; or relaxation_g1, "
-          "relaxation_tau1 ...: some of them",
+          "relaxation_tau1 ...: some of them. Beside measured displacements poissons_ratio, which "
+          "they tell in any case; compression: a factor of the field, load by load, so that its "
+          "shape alone tells; slip: how far the contact is from stick to frictionless",
           {}),
       forward_key(),
       of_experiment(rig_key()),
@@ -199,6 +202,11 @@ std::vector<Key> calibration_keys() {
                             {"given", "press.contact, also where that is its default"}},
                            "with which contacts measured presses are fitted",
                            at(&Config::calibration, &Order::contact_as_given))),
+      of_experiment(choice("calibration", "frame",
+                           {{"fitted", "its rigid motion is fitted, load by load"},
+                            {"held", "it stands still where the finger is held"}},
+                           "the frame in which displacements of points were measured",
+                           at(&Config::calibration, &Order::frame_held))),
       of_experiment(entry("machine", any, "name of the machine: files of one share a compliance",
                           &Order::machine)),
       entry("prior", {0.0, 10.0, true},

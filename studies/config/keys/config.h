@@ -119,6 +119,7 @@ struct CalibrationSettings {
   /// Further measurements that a fit weighs: names of studies/fits/setup/fit_plan.h, or conditions.
   std::vector<std::string> candidates = {"repeat", "shallow", "deep",   "blank",
                                          "ball",   "plane",   "contact"};
+  bool frame_held = false;        ///< that measured displacements; else its motion is fitted
   bool contact_as_given = false;  ///< else both contacts are fitted where none is given
   double prior = 0.02;            ///< relative; 0: none
   double model_error = 0.01;      ///< relative

@@ -53,16 +53,27 @@ std::vector<std::vector<std::size_t>> alike(const FitInput& input) {
 }
 
 void share_depths(FitInput& input) {
-  // Further rows of a press begin under load: where it was touched those before tell.
-  for (FitCurve& curve : input.curves)
-    if (curve.continues) {
-      const FitCurve& before = input.curves[*curve.continues];
-      curve.travel = continued(*std::move(curve.travel), curve, *before.travel, before);
-    }
+  const auto by_rows = [&](std::size_t i) {
+    return input.curves[i].travel->depths == input.curves[i].x;
+  };
   for (const auto& curves : alike(input)) {
+    // Between rows that are depths nothing is asked.
+    std::vector<double> depths;
+    if (std::ranges::all_of(curves, by_rows)) {
+      for (const std::size_t i : curves)
+        depths.insert(depths.end(), input.curves[i].x.begin(), input.curves[i].x.end());
+      std::ranges::sort(depths);
+      depths.erase(std::ranges::unique(depths).begin(), depths.end());
+    }
+    // Further rows of a press begin under load: where it was touched those before tell.
+    for (const std::size_t i : curves)
+      if (FitCurve& curve = input.curves[i]; curve.continues) {
+        const FitCurve& before = input.curves[*curve.continues];
+        curve.travel = continued(*std::move(curve.travel), curve, *before.travel, before);
+      }
     const auto reach = [&](std::size_t i) { return input.curves[i].travel->depths.back(); };
-    const std::vector<double> depths =
-        input.curves[*std::ranges::max_element(curves, {}, reach)].travel->depths;
+    if (depths.empty())
+      depths = input.curves[*std::ranges::max_element(curves, {}, reach)].travel->depths;
     for (const std::size_t i : curves) {
       FitCurve& curve = input.curves[i];
       curve.travel->depths = curve.press.protocol.samples = depths;

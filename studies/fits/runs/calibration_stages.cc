@@ -12,6 +12,7 @@
 #include "studies/files/json_entry.h"
 #include "studies/files/read_fields.h"
 #include "studies/fits/models/fit_relaxation.h"
+#include "studies/fits/runs/displacement_job.h"
 #include "studies/fits/runs/fit_corrections.h"
 #include "studies/fits/runs/fit_job.h"
 #include "studies/fits/runs/moduli_job.h"
@@ -36,6 +37,7 @@ using nlohmann::ordered_json;
 constexpr std::size_t bias_samples = 8;
 
 constexpr const char* other_contact_name = "fit_other_contact";
+constexpr const char* displacements_name = "displacements";
 
 /// Evenly chosen, the last one always.
 std::vector<double> thinned(const std::vector<double>& x, std::size_t count) {
@@ -55,6 +57,40 @@ const meshes::PressSample& sample_near(const PressResponse& response, double dep
 FitFile read_fit(const fs::path& folder) {
   const fs::path file = folder / "calibration.json";
   return struct_of<FitFile>(read_entry(file));
+}
+
+calibration::DisplacementFitFile read_ratio(const fs::path& folder) {
+  return struct_of<calibration::DisplacementFitFile>(read_entry(folder / "displacements.json"));
+}
+
+/// Of displacements alone: one parameter, and no curves.
+FitFile fit_of(const calibration::DisplacementFitFile& found) {
+  FitFile fit;
+  fit.problem = name(CalibrationProblem::experiment);
+  fit.model = found.model;
+  fit.forward = found.model == "continuum" ? "continuum" : "lattice";
+  calibration::ParameterEntry& ratio = fit.parameters.emplace_back("poissons_ratio", "1");
+  ratio.estimate = found.poissons_ratio;
+  ratio.lower = found.lower;
+  ratio.upper = found.upper;
+  ratio.standard_error = (found.upper - found.lower) / 3.92;
+  ratio.at_bound = found.at_bound;
+  ratio.interval = "posterior";
+  fit.covariance = {{std::pow(ratio.standard_error, 2)}};
+  fit.correlation = {{1.0}};
+  fit.converged = true;
+  fit.failed = found.failed;
+  fit.statement = found.statement;
+  fit.displacements = found;
+  return fit;
+}
+
+/// The fit of forces knows Poisson's ratio by them.
+void add_displacements(const calibration::DisplacementFitFile& found, FitFile& fit) {
+  fit.displacements = found;
+  fit.statement = "Displacements: " + found.statement + " Forces, at that ratio: " + fit.statement;
+  for (const std::string& reason : found.failed)
+    fit.failed.push_back("of the displacements, " + reason);
 }
 
 void check_moduli(const LoadedConfig& loaded) {
@@ -85,13 +121,23 @@ LoadedConfig without_markers(LoadedConfig loaded) {
 
 CalibrationStages::CalibrationStages(LoadedConfig loaded, std::string folder, Failed failed)
     : loaded_(without_markers(std::move(loaded))), folder_(std::move(folder)), failed_(failed) {
-  if (loaded_.config.calibration.problem == CalibrationProblem::moduli) {
+  if (by_moduli()) {
     check_moduli(loaded_);
-  } else {
-    setup_ = fit_setup(loaded_);
-    loaded_ = setup_.loaded;
-    other_contact_ = with_other_contact(setup_);
+    return;
   }
+  SplitData split = split_data(loaded_);
+  loaded_ = std::move(split.forces);
+  displacements_ = std::move(split.displacements);
+  has_forces_ = split.has_forces;
+  if (has_forces_) set_up();
+  notes_ = std::move(split.notes);
+  notes_.insert(notes_.end(), setup_.notes.begin(), setup_.notes.end());
+}
+
+void CalibrationStages::set_up() {
+  setup_ = fit_setup(loaded_, setup_.files);
+  loaded_ = setup_.loaded;
+  other_contact_ = with_other_contact(setup_);
 }
 
 std::string CalibrationStages::place(const std::string& name) const {
@@ -105,9 +151,13 @@ bool CalibrationStages::by_moduli() const {
 std::vector<PlannedJob> CalibrationStages::next(const fs::path& run) {
   std::vector<PlannedJob> jobs;
   while (jobs.empty() && stage_ != Stage::done) {
-    if (stage_ == Stage::data) jobs = data_jobs();
-    if (stage_ == Stage::fit) jobs = fits(run);
-    if (stage_ == Stage::follow_up) jobs = follow_up_jobs(run);
+    if (stage_ == Stage::displacements) jobs = displacement_jobs();
+    if (stage_ == Stage::data && has_forces_) jobs = data_jobs();
+    if (stage_ == Stage::fit && has_forces_) {
+      take_ratio(run);
+      jobs = fits(run);
+    }
+    if (stage_ == Stage::follow_up && has_forces_) jobs = follow_up_jobs(run);
     if (stage_ == Stage::finish) finish(run);
     stage_ = Stage(int(stage_) + 1);
   }
@@ -116,6 +166,8 @@ std::vector<PlannedJob> CalibrationStages::next(const fs::path& run) {
 
 double CalibrationStages::later_weight() const {
   double weight = 0.0;
+  if (stage_ == Stage::displacements && displacements_) weight += fit_weight;
+  if (!has_forces_) return weight;
   if (stage_ <= Stage::fit)
     weight += by_moduli() ? moduli_weight : fit_weight * (other_contact_ ? 2.0 : 1.0);
   if (stage_ > Stage::follow_up) return weight;
@@ -124,6 +176,18 @@ double CalibrationStages::later_weight() const {
     for (const FitCurve& curve : setup_.input.curves)
       weight += reference_job(curve.continuum).weight;
   return weight;
+}
+
+std::vector<PlannedJob> CalibrationStages::displacement_jobs() {
+  if (!displacements_) return {};
+  return {{place(displacements_name), displacement_job(*displacements_)}};
+}
+
+/// Forces are fitted at the ratio that displacements tell, known as well as they tell it.
+void CalibrationStages::take_ratio(const fs::path& run) {
+  if (!displacements_) return;
+  loaded_ = with_ratio(loaded_, read_ratio(run / place(displacements_name)));
+  set_up();
 }
 
 std::vector<PlannedJob> CalibrationStages::data_jobs() {
@@ -322,8 +386,25 @@ void CalibrationStages::keep_rejected(const FitFile& fit, const fs::path& card) 
   calibration::write_material_toml(found, card);
 }
 
+void CalibrationStages::finish_displacements(const fs::path& run) const {
+  const fs::path target = run / folder_, from = run / place(displacements_name);
+  for (const char* const file : {"displacements.json", "displacements.csv", "distances.json"})
+    fs::copy_file(from / file, target / file, fs::copy_options::overwrite_existing);
+  if (has_forces_) return;
+  const FitFile fit = fit_of(read_ratio(from));
+  meshes::write_json_file({{"problem", fit.problem},
+                           {"model", fit.model},
+                           {"status", "finished"},
+                           {"failed", fit.failed},
+                           {"statement", fit.statement}},
+                          target / "summary.json");
+  meshes::write_json_file(fit, target / "calibration.json");
+}
+
 void CalibrationStages::finish(const fs::path& run) const {
   const fs::path target = run / folder_;
+  if (displacements_) finish_displacements(run);
+  if (!has_forces_) return;
   const auto copy = [&](const std::string& from, const char* file, const char* as) {
     fs::copy_file(run / place(from) / file, target / as, fs::copy_options::overwrite_existing);
   };
@@ -343,6 +424,7 @@ void CalibrationStages::finish(const fs::path& run) const {
       add_other_contact(read_fit(other), contact_name(setup_), contact_name(*other_contact_), fit);
     fit.statement += contact_note_;
     refuse_what_is_open(fit);
+    if (displacements_) add_displacements(read_ratio(run / place(displacements_name)), fit);
     if (!fit.failed.empty() && use) keep_rejected(fit, target / "material.toml");
     ordered_json summary = parse_json(run / place(fit_name_) / "summary.json");
     summary["statement"] = fit.statement;

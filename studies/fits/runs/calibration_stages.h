@@ -9,6 +9,7 @@
 #include "calibration/files/fit_file.h"
 #include "calibration/material/material.h"
 #include "studies/config/loader.h"
+#include "studies/fits/setup/fit_displacements.h"
 #include "studies/fits/setup/fit_setup.h"
 #include "studies/jobs/session.h"
 
@@ -16,13 +17,14 @@ namespace fingertip::studies::inline fits::inline runs {
 
 /// One calibration as stages of jobs, each of which needs the results of those before: the
 /// continuum that makes data or judges the lattice, the fit, the surrogate.
+///   displacements/ Poisson's ratio, where the data have displacements; forces know it then
 ///   reference_N/   continuum of curve N
 ///   fit/           the fit itself (moduli: in the calibration's folder)
 ///   fit_other_contact/  beside it, where the contact is not known; counts where `fit` has no
 ///   answer continuum_N/   that answers for curve N, run by the fit at Poisson's ratios bias_N/
 ///   continuum of curve N at the estimates surrogate/     the calibrated lattice's press, smoothed
 /// In the folder itself: calibration.json, material.toml, fit_data.csv, summary.json, surrogate.csv
-/// and .json.
+/// and .json; of displacements their files, alone without those of a fit.
 class CalibrationStages {
  public:
   /// What becomes of a fit that failed its own tests: no material.toml, bias and surrogate, or all
@@ -40,15 +42,19 @@ class CalibrationStages {
   double later_weight() const;
 
   /// Remarks on measured files.
-  const std::vector<std::string>& notes() const { return setup_.notes; }
+  const std::vector<std::string>& notes() const { return notes_; }
 
   /// Of a fit that is done.
   calibration::Material material(const std::filesystem::path& run) const;
 
  private:
-  enum class Stage { data, fit, follow_up, finish, done };
+  enum class Stage { displacements, data, fit, follow_up, finish, done };
 
   bool by_moduli() const;
+  void set_up();
+  std::vector<PlannedJob> displacement_jobs();
+  void take_ratio(const std::filesystem::path& run);
+  void finish_displacements(const std::filesystem::path& run) const;
   /// Whether its material may be used: the fit passed its tests, or is kept all the same.
   bool usable(const std::filesystem::path& run) const;
   std::string place(const std::string& name) const;
@@ -68,8 +74,11 @@ class CalibrationStages {
   LoadedConfig loaded_;
   std::string folder_;
   Failed failed_;
-  Stage stage_ = Stage::data;
-  FitSetup setup_;  ///< empty for the moduli
+  Stage stage_ = Stage::displacements;
+  std::optional<DisplacementFitInput> displacements_;
+  bool has_forces_ = true;  ///< else displacements alone
+  FitSetup setup_;          ///< empty for the moduli and displacements alone
+  std::vector<std::string> notes_;
   std::optional<FitSetup> other_contact_;
   std::string fit_name_ = "fit";  ///< folder of the fit that counts
   std::string contact_note_;      ///< for people

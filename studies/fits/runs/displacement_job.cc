@@ -11,6 +11,7 @@
 #include "meshes/tables/table_rows.h"
 #include "source_hash.h"
 #include "studies/fits/models/continuum_model.h"
+#include "studies/fits/runs/displacement_study.h"
 #include "studies/presses/press_record.h"
 #include "studies/presses/reference_job.h"
 
@@ -35,30 +36,53 @@ std::vector<meshes::MarkerRow> pressed_at(lattice::PressSetup setup, double pois
       .markers;
 }
 
+/// Of a press at each of the ratios.
+std::vector<MarkerFields> fields_at(const DisplacementFitInput& input,
+                                    const std::vector<double>& ratios, const JobContext& context) {
+  std::vector<MarkerFields> fields;
+  std::vector<PlannedJob> jobs;
+  for (const double nu : ratios) {
+    if (input.by_lattice)
+      fields.push_back(
+          fields_of(pressed_at(input.press, nu,
+                               [&] { return context.report(0.0, fmt::format("nu {:.4f}", nu)); }),
+                    input.measured));
+    else
+      jobs.push_back({fmt::format("{}/{:.6f}", input.place, nu),
+                      reference_job(at_ratio(input.continuum, nu))});
+  }
+  if (jobs.empty()) return fields;
+  for (const fs::path& folder : context.run_all(jobs))
+    fields.push_back(
+        fields_of(meshes::read_rows<meshes::MarkerRow>(folder / "markers.csv"), input.measured));
+  return fields;
+}
+
 calibration::ScaledModel::Solver solver_of(const DisplacementFitInput& input,
                                            const DisplacementMoments& moments,
                                            const JobContext& context) {
-  if (input.by_lattice)
-    return [&](const std::vector<double>& ratios) {
-      std::vector<Eigen::VectorXd> answers;
-      for (const double nu : ratios)
-        answers.push_back(moments.of(
-            fields_of(pressed_at(input.press, nu,
-                                 [&] { return context.report(0.0, fmt::format("nu {:.4f}", nu)); }),
-                      input.measured)));
-      return answers;
-    };
   return [&](const std::vector<double>& ratios) {
-    std::vector<PlannedJob> jobs;
-    for (const double nu : ratios)
-      jobs.push_back({fmt::format("{}/{:.6f}", input.place, nu),
-                      reference_job(at_ratio(input.continuum, nu))});
     std::vector<Eigen::VectorXd> answers;
-    for (const fs::path& folder : context.run_all(jobs))
-      answers.push_back(moments.of(
-          fields_of(meshes::read_rows<meshes::MarkerRow>(folder / "markers.csv"), input.measured)));
+    for (const MarkerFields& fields : fields_at(input, ratios, context))
+      answers.push_back(moments.of(fields));
     return answers;
   };
+}
+
+/// What the fit computes: the press that sticks, on its way to that which slips, times its factor.
+MarkerFields fitted_fields(const DisplacementFitInput& input, const DisplacementFitInput& slipping,
+                           const calibration::DisplacementFitFile& fit, const JobContext& context) {
+  MarkerFields fields = fields_at(input, {fit.poissons_ratio}, context).front();
+  MarkerFields free;
+  if (input.freed.slip) free = fields_at(slipping, {fit.poissons_ratio}, context).front();
+  for (std::size_t s = 0; s < fields.size(); ++s)
+    for (std::size_t i = 0; i < fields[s].size(); ++i) {
+      meshes::Vector3& own = fields[s][i];
+      const meshes::Vector3 stuck = own;
+      own *= fit.loads[s].stretch;
+      if (!free.empty()) own += fit.loads[s].slip * (free[s].at(i) - stuck);
+    }
+  return fields;
 }
 
 bool is_finite(const DisplacementFitInput& input) {
@@ -81,6 +105,15 @@ void run_displacements(const DisplacementFitInput& input, const fs::path& folder
   fit.model =
       input.by_lattice ? std::string(lattice::name(input.press.lattice.model)) : "continuum";
   fit.strain = is_finite(input) ? "finite" : "small";
+  const MarkerFields fields = fitted_fields(input, free, fit, context);
+  const auto distances = distances_of(measured, fields);
+  const std::string name = input.by_lattice ? fit.model : "continuum, " + fit.strain + " strain";
+  meshes::write_rows(rows_of(measured, distances, fields, name), folder / "displacements.csv");
+  meshes::write_json_file(
+      DisplacementStudy{entries_of(measured, distances, name),
+                        scatter_at_rest(measured),
+                        {ratio_entry(fit, measured.name, folder.filename().string())}},
+      folder / "distances.json");
   meshes::write_json_file(fit, folder / "displacements.json");
   meshes::write_json_file(
       {{"status", "finished"}, {"failed", fit.failed}, {"statement", fit.statement}},

@@ -207,7 +207,7 @@ std::vector<calibration::SensitivityEntry> sensitivities_of(const FitInput& inpu
   const ForceAndDepth at = presses_at(input, record.fit.estimates, computed);
   const auto add = [&](const KnownError& error, bool counts, const Eigen::VectorXd& relative) {
     calibration::SensitivityEntry& entry =
-        entries.emplace_back(error.name, error.value, error.step, counts);
+        entries.emplace_back(error.name, unit_of(*error.number), error.value, error.step, counts);
     for (std::size_t i = 0; i < material_parameters(input); ++i)
       entry.changes[record.fit.labels[i]] =
           -record.fit.influence.row(Eigen::Index(i)).dot(at.force.cwiseProduct(relative));

@@ -103,18 +103,22 @@ LatticeUse lattice_of_fit(const LoadedConfig& loaded) {
                                                                      : LatticeUse::press;
 }
 
+void refuse_motion(const LoadedConfig& own, const meshes::PressProtocol& protocol) {
+  if (protocol.moves_after())
+    throw own.locate(
+        {{protocol.has_twist() ? "press.twist" : "press.lateral_path",
+          protocol.has_twist() ? meshes::to_text(protocol.twist) + " rad" : "after",
+          "a fit takes what a press does against indentation, and a motion at full depth has none",
+          "choose press.lateral_path = diagonal, or leave press.lateral and press.twist at 0"}});
+  if (!protocol.program.empty())
+    throw own.locate(
+        {{"press.program", "given", "a fit takes presses against the indentation of one loading",
+          "leave it out, or give press.depth and press.speed"}});
+}
+
 FitCurve& add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
   const lattice::PressSetup press = press_setup(own, lattice_of_fit(own));
-  if (press.protocol.moves_after())
-    throw own.locate(
-        {{press.protocol.has_twist() ? "press.twist" : "press.lateral_path",
-          press.protocol.has_twist() ? meshes::to_text(press.protocol.twist) + " rad" : "after",
-          "a fit takes forces against indentation, and a motion at full depth has none",
-          "choose press.lateral_path = diagonal, or leave press.lateral and press.twist at 0"}});
-  if (!press.protocol.program.empty())
-    throw own.locate(
-        {{"press.program", "given", "a fit takes forces against the indentation of one loading",
-          "leave it out, or give press.depth and press.speed"}});
+  refuse_motion(own, press.protocol);
   FitCurve& added = add_curve(fit.input, kind, std::move(curve), described(press));
   added.press = press;
   added.continuum = continuum_beside(own, press.lattice.kinematics);

@@ -36,6 +36,9 @@ CurveKind press_kind(const CalibrationSettings& settings);
 FitCurve& add_curve(FitInput& input, CurveKind kind, calibration::Curve curve,
                     const std::string& condition);
 
+/// Throws ConfigError for a motion that no fit knows: aside at full depth, a program.
+void refuse_motion(const LoadedConfig& own, const meshes::PressProtocol& protocol);
+
 /// Appends a press with its curve. Throws ConfigError for a motion that no fit knows.
 FitCurve& add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind,
                     calibration::Curve curve);

@@ -188,20 +188,21 @@ void check_curves(const LoadedConfig& loaded, const FitInput& input,
   }
 }
 
-/// More than a press behind a rig answers at. Of a continuum each row would be a sample that meets
-/// the tolerance; a lattice passes them on its way.
+/// More than a press behind a rig answers at.
 bool has_many_rows(const FitCurve& curve) {
-  return curve.kind == CurveKind::continuum &&
-         curve.x.size() > calibration::depths_for_rig(curve.x.back()).size();
+  return curve.x.size() > calibration::depths_for_rig(curve.x.back()).size();
 }
 
-/// Travels have their rigs. Indentations of the same fit, and such of many rows, are travels of a
-/// rig that is known.
+/// Travels have their rigs. Indentations of the same fit, such of many rows and those of a press
+/// whose further rows are held back are travels of a rig that is known.
 void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
   FitInput& input = fit.input;
   const auto travels = [](const FitCurve& curve) { return curve.travel.has_value(); };
   const auto asks_rig = [](const FitCurve& curve) {
-    return curve.zero_is_sought || has_many_rows(curve);
+    // Of a continuum each row would be a sample that meets the tolerance; a lattice passes them on
+    // its way.
+    const bool costs = curve.kind == CurveKind::continuum && has_many_rows(curve);
+    return curve.zero_is_sought || costs || curve.continues;
   };
   if (std::ranges::none_of(input.curves, travels)) {
     if (loaded.entries.at("calibration.rig").given)
@@ -218,6 +219,8 @@ void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
     curve.travel = travel_of(curve, rigid);
     // A machine of its own.
     curve.travel->machine = "indentation of " + curve.name;
+    if (!curve.zero_is_sought && !has_many_rows(curve) && curve.x.size() > 1)
+      curve.travel->depths = curve.x;
   }
   share_depths(input);
   try {

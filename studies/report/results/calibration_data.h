@@ -62,6 +62,8 @@ struct Fit {
   std::vector<calibration::SurrogateRow> surrogate;
   calibration::SurrogateFile surrogate_notes;
 
+  /// Alone: nothing but Poisson's ratio, and no curves.
+  bool of_displacements() const { return file.displacements && curves.empty(); }
   /// An entry that is a square matrix over the parameters; empty when it has another size.
   std::vector<std::vector<double>> square(const std::vector<std::vector<double>>& rows) const;
   /// The index of a parameter; the number of parameters when there is none of that name.

@@ -242,6 +242,8 @@ TEST(MeshHistory, ErrorIndicatorsRaiseTheBar) {
   EXPECT_EQ(history.error(0).value, before);
   finest.indicator = 0.1 * finest.energy;
   EXPECT_NEAR(history.error(0).value, 0.2 * 1.01, 1e-12);
+  EXPECT_NEAR(MeshHistory::from_json(history.to_json(), MeshHistory(1.0, 0.0, true)).error(0).value,
+              0.1 * 1.01, 1e-12);
 }
 
 TEST(MeshHistory, AddsWhatTheStepsAreOff) {

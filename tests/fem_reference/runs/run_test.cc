@@ -253,6 +253,28 @@ TEST(ReferenceRun, CarriesOutTiltFrictionAndLargeStrain) {
   EXPECT_LT(summary.at("samples")[1].at("min_jacobian"), 1.0);
 }
 
+/// At large strain a solid's samples cost most of the time: once a deep one is known well enough
+/// finer meshes are pressed to those before it alone, and its fields stay.
+TEST(ReferenceRun, PressesASolidNoDeeperThanItMust) {
+  const TemporaryFolder parent;
+  ReferenceJob job = small_job();
+  job.protocol.contact = ContactMode::stick;
+  job.strain = fem_reference::Strain::finite;
+  job.tolerance = 0.04;
+  job.press_to({5e-5, 1e-3});
+  const fs::path folder = run_folder(parent, "run", job);
+  ASSERT_EQ(carry_out(folder), 0);
+  const json meshes = summary_of(folder).at("meshes");
+  ASSERT_GT(meshes.size(), 3u);
+  EXPECT_EQ(meshes[2].at("samples"), 2);
+  EXPECT_EQ(meshes.back().at("samples"), 1);
+  const auto samples = samples_of(folder);
+  ASSERT_EQ(samples.size(), 2u);
+  for (const meshes::PressSample& sample : samples)
+    EXPECT_LE(sample.force_error, job.tolerance * sample.normal_force);
+  EXPECT_EQ(count_files(folder / "fields"), 3u);  // and their series
+}
+
 /// Error bars of every row, in the order of time, at rest and in motion; to where nothing touches.
 TEST(ReferenceRun, GoesThroughAProgramOfARubberThatRelaxes) {
   const TemporaryFolder parent;

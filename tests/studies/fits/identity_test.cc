@@ -218,7 +218,9 @@ const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawA
     // No search of moduli has random starts any more; those of laws see law_job_test.
     "calibration.starts", "calibration.seed",
     // Of plans; see IdentityOfAPlan. The other contact is another fit.
-    "calibration.noise", "calibration.noise_force", "calibration.contact"};
+    "calibration.noise", "calibration.noise_force", "calibration.contact",
+    // Of displacements.
+    "calibration.frame"};
 /// Of the fit of constants to moduli.
 const Sets moduli_fit = {"calibration.isotropy_weight", "calibration.bulk_weight"};
 /// What becomes of a fit: further jobs.

@@ -148,6 +148,7 @@ double worst_residual(const Fit& fit) {
 
 /// The result of one fit in a few sentences.
 std::string fit_answer(const Fit& fit) {
+  if (fit.of_displacements()) return as_shown(fit.file.statement);
   double left_out = meshes::unknown;
   for (const FitCurve& curve : fit.curves) left_out = std::fmax(left_out, curve.left_out_error());
   const double worst = worst_residual(fit);
@@ -206,7 +207,7 @@ std::vector<Chapter> fit_chapters(const CalibrationData& data) {
   for (std::size_t i = 0; i < data.fits.size(); ++i) {
     const Fit& fit = data.fits[i];
     const std::string prefix = several ? fmt::format("fit_{}", i + 1) : "fit";
-    if (fit.file.empty()) continue;
+    if (fit.file.empty() || fit.of_displacements()) continue;
     chapters.push_back(quality_chapter(fit, prefix));
     std::vector<Chapter> parts = measured_chapters(fit, prefix);
     parts.insert(parts.begin(), {predicted_chapter(fit, prefix), parameter_chapter(fit, prefix)});
@@ -232,7 +233,7 @@ std::vector<NotRun> missing_fit_parts(const CalibrationData& data) {
       if (!there) missing.push_back({what + of, folder + where});
     };
     need(!fit.file.empty(), "Fit", "calibration.json");
-    if (fit.file.empty()) continue;
+    if (fit.file.empty() || fit.of_displacements()) continue;
     const bool measured =
         std::ranges::any_of(fit.curves, [](const FitCurve& curve) { return !curve.rows.empty(); });
     need(measured, "Measured and fitted curves", "fit_data.csv");

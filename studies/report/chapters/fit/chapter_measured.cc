@@ -206,10 +206,7 @@ Table sensitivity_table(const Fit& fit) {
       const auto own =
           std::ranges::find(fit.file.parameters, parameter, &calibration::ParameterEntry::name);
       if (own == fit.file.parameters.end()) continue;
-      const std::string unit = each.name.starts_with("poissons_ratio") || each.name == "scale" ? "1"
-                               : each.name.starts_with("tilt") ? "rad"
-                                                               : "m";
-      table.rows.push_back({each.name, amount_of(each.step, unit, 3), parameter,
+      table.rows.push_back({each.name, amount_of(each.step, each.unit, 3), parameter,
                             fmt::format("{:+.2g} %", 100.0 * change / own->estimate),
                             each.counts ? "in the intervals" : "not in the intervals"});
     }

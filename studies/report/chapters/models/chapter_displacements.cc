@@ -111,8 +111,8 @@ Figure side_figure(const DisplacementStudy& study, const std::vector<Displacemen
   const std::vector<DisplacementRow> rows = slab(points, pitch);
   Figure figure;
   figure.name = "displacements_side";
-  figure.columns = 2;
   const std::vector<std::string> names = distinct(rows, &DisplacementRow::name);
+  figure.columns = names.size() > 1 ? 2 : 1;
   for (const std::string& name : names) {
     const Style style = displacement_style(name);
     Panel panel{.title = name.starts_with("continuum") ? name : model_label(name),
@@ -159,6 +159,7 @@ Chapter displacements_chapter(const DisplacementStudy& study,
   if (best != nullptr) {
     chapter["best"] = best->name;
     chapter["best_rms"] = length.text(best->rms);
+    chapter["several"] = worst->name != best->name;
     chapter["worst"] = worst->name;
     chapter["worst_rms"] = length.text(worst->rms);
     chapter["size"] = length.text(best->size);
