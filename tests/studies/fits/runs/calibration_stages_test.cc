@@ -291,3 +291,26 @@ TEST_F(HeldBackFiles, FurtherRowsArePartOfThePress) {
   EXPECT_TRUE(fit.predicted[0].own.empty());
   EXPECT_LT(fit.predicted[0].rms_relative, 0.1);
 }
+
+/// Of few rows over an indentation one press of all of them answers, at these depths.
+TEST_F(HeldBackFiles, FewRowsAreTheDepthsOfOnePress) {
+  measure("press.csv", 0.0, 1.0);
+  std::ofstream(folder_ / "press.toml")
+      << "[data]\nindentation = {column = 1, unit = \"mm\"}\n"
+         "force = {column = 2, unit = \"mN\"}\n"
+         "[[press]]\npath = \"press.csv\"\nrows = [8, 10]\n"
+         "[[press]]\npath = \"press.csv\"\nrows = [11, 13]\nname = \"deeper\"\n"
+         "use = \"predict\"\n";
+  std::vector<std::string> indented = sets();
+  std::erase_if(indented, [](const auto& set) { return set.starts_with("calibration.rig"); });
+  const FitInput input = fit_setup(load_config({{}, indented, {}})).input;
+  std::vector<double> rows = input.curves[0].x;
+  const FitCurve& deeper = input.with_held_back->curves[1];
+  rows.insert(rows.end(), deeper.x.begin(), deeper.x.end());
+  ASSERT_EQ(rows.size(), 6u);
+  for (const FitCurve* curve : {&input.curves[0], &deeper}) {
+    EXPECT_EQ(curve->press.protocol.samples, rows);
+    EXPECT_EQ(curve->continuum.protocol.samples, rows);
+  }
+  EXPECT_EQ(input.options.free.size(), 1u);  // neither touch nor zero
+}
