@@ -86,14 +86,29 @@ void check(const LoadedConfig& loaded, bool has_forces) {
                     "name poissons_ratio, or give forces of the same rubber among the data");
 }
 
+std::vector<meshes::Violation> placed(std::vector<meshes::Violation> broken,
+                                      const std::string& place) {
+  for (meshes::Violation& violation : broken)
+    if (violation.place.empty()) violation.place = place;
+  return broken;
+}
+
+/// Too few points, or such that tell no strain.
+void check_points(const DisplacementFitInput& input) {
+  try {
+    calibration::DisplacementMoments(input.measured.places, input.measured.samples, input.frame);
+  } catch (const meshes::InvalidInput& error) {
+    throw ConfigError(placed(error.violations(), input.measured.name));
+  }
+}
+
 }  // namespace
 
 void put_markers(const DisplacementFile& measured, const meshes::Geometry& geometry,
                  const std::string& place, meshes::PressProtocol& protocol) {
-  std::vector<meshes::Violation> broken = meshes::marker_violations(measured.places, geometry);
-  for (meshes::Violation& violation : broken)
-    if (violation.place.empty()) violation.place = place;
-  if (!broken.empty()) throw ConfigError(broken);
+  const std::vector<meshes::Violation> broken =
+      meshes::marker_violations(measured.places, geometry);
+  if (!broken.empty()) throw ConfigError(placed(broken, place));
   protocol.markers = measured.places;
 }
 
@@ -124,6 +139,7 @@ DisplacementFitInput displacement_input(const LoadedConfig& loaded, Displacement
       input.by_lattice ? input.press.protocol : input.continuum.protocol;
   refuse_motion(own, protocol);
   put_markers(input.measured, own.config.press.geometry, input.measured.name, protocol);
+  check_points(input);
   return input;
 }
 

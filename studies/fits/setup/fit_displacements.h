@@ -30,8 +30,8 @@ struct DisplacementFitInput {
 
 /// The press of `loaded` at rest for what was measured of it, by calibration.forward: of lattices
 /// the network where nobody chose one, of both at large strain unless lattice.kinematics says
-/// small; calibration.parameters tells what is freed. Throws ConfigError, for points outside of the
-/// rubber, too.
+/// small; calibration.parameters tells what is freed. Throws ConfigError, also for points outside
+/// of the rubber and for too few.
 DisplacementFitInput displacement_input(const LoadedConfig& loaded, DisplacementFile measured,
                                         const std::string& place);
 

@@ -193,4 +193,6 @@ TEST_F(FitDisplacements, WhatTheyCannotTellIsRefused) {
            {"press.lateral_path", "has none"}));
   std::ofstream(folder_ / "outside.csv") << titles << "1,0,0,90,0,0,0\n";
   EXPECT_TRUE(says(refusal(loaded({"outside.csv"})), {"outside"}));
+  std::ofstream(folder_ / "few.csv") << titles << "1,0,0,9,0,0,0\n";
+  EXPECT_TRUE(says(refusal(loaded({"few.csv"})), {"few: displacements", "at least 8 points"}));
 }
