@@ -138,8 +138,9 @@ class PressRun : Run {
       const std::size_t cells = press.mesh().cells;
       if (max_growth * double(press.mesh().unknowns) > job_.max_unknowns) write_pictures(press);
       // To what is known well enough no finer mesh is pressed.
-      std::erase_if(unwritten_, [until = is_costly() ? last_unknown() : places_.size()](
-                                    const auto& each) { return each.first < until; });
+      std::erase_if(unwritten_, [until = wanted(history_.meshes().size() + 1)](const auto& each) {
+        return each.first < until;
+      });
       write_pictures(press);
       if (!press.refine(refined_share, samples_to_improve()))
         give_up(worst,
@@ -152,11 +153,11 @@ class PressRun : Run {
     }
   }
 
-  /// Empty, for all, until every sample has an estimate; of those on the mesh at hand.
-  std::vector<char> samples_to_improve() {
+  /// Of those on the mesh at hand; empty, for all, until every sample has an estimate.
+  std::vector<char> samples_to_improve() const {
     if (history_.meshes().size() < fewest_meshes) return {};
     std::vector<char> flags = history_.beyond(job_.tolerance);
-    flags.resize(history_.finest().states.size());
+    flags.resize(history_.meshes().back().states.size());
     return flags;
   }
 
@@ -218,19 +219,16 @@ class PressRun : Run {
     progress_.report(stage, done, total, message, work_.expected(progress_.wall_time(), wanted()));
   }
 
-  /// How many samples the mesh at hand is pressed through: all, until each has an estimate; then,
-  /// where every sample costs many factors, up to the last that is not known well enough. Of the
-  /// others a coarser mesh tells.
-  std::size_t wanted() const {
-    const bool all = !job_.estimate_error || history_.meshes().size() <= fewest_meshes;
-    return all || !is_costly() ? places_.size() : last_unknown();
-  }
-  bool is_costly() const { return job_.strain == Strain::finite && !job_.axisymmetric(); }
-  std::size_t last_unknown() const {
-    std::vector<char> beyond = history_.beyond(job_.tolerance);
-    beyond.resize(places_.size(), 1);
+  /// How many samples a mesh is pressed through, the first being 1: all, until each has an
+  /// estimate; then, where every sample costs many factors, up to the last that is not known well
+  /// enough. Of the others a coarser mesh tells.
+  std::size_t wanted(std::size_t mesh) const {
+    const bool costly = job_.strain == Strain::finite && !job_.axisymmetric();
+    if (!job_.estimate_error || mesh <= fewest_meshes || !costly) return places_.size();
+    const std::vector<char> beyond = history_.beyond(job_.tolerance);
     return std::size_t(beyond.rend() - std::find(beyond.rbegin(), beyond.rend(), 1));
   }
+  std::size_t wanted() const { return wanted(history_.meshes().size()); }
 
   void press_on(ContinuumPress& press) {
     for (std::size_t i = history_.finest().states.size(); i < wanted(); ++i) {

@@ -261,4 +261,24 @@ void resolve_elasticity(LoadedConfig& loaded, std::vector<meshes::Violation>& pr
   Elasticity(loaded, problems).resolve();
 }
 
+std::vector<std::string> settings_at_ratio(const LoadedConfig& loaded, double poissons_ratio) {
+  const auto set = [](const char* key, const std::string& value) {
+    return std::string(key) + "=" + value;
+  };
+  const meshes::Rubber& rubber = loaded.config.press.rubber;
+  using enum meshes::RubberLaw;
+  const meshes::RubberLaw law = rubber.energy.law;
+  const bool has_shear =
+      law == yeoh || law == mooney_rivlin || law == ogden || loaded.entries.at("rubber.card").given;
+  std::vector<std::string> sets{set(poisson, meshes::to_text(poissons_ratio)),
+                                set(hardness, "auto"), set(bulk, "auto")};
+  if (has_shear) {
+    sets.push_back(set(youngs, "auto"));
+  } else {
+    sets.push_back(set(youngs, meshes::to_text(rubber.youngs_modulus) + " Pa"));
+    sets.push_back(set(shear, "auto"));
+  }
+  return sets;
+}
+
 }  // namespace fingertip::studies::inline config

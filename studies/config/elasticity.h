@@ -24,4 +24,8 @@ double youngs_modulus_of_hardness(double shore_a);
 /// misses its coefficients.
 void resolve_elasticity(LoadedConfig& loaded, std::vector<meshes::Violation>& problems);
 
+/// Settings of with_sets that give the rubber another Poisson's ratio at its E, or where a law's
+/// coefficients or a card tell G at that, whatever else was given.
+std::vector<std::string> settings_at_ratio(const LoadedConfig& loaded, double poissons_ratio);
+
 }  // namespace fingertip::studies::inline config

@@ -172,7 +172,7 @@ class PageMaker {
 
   /// A study has its presses to show, and nothing of the core case.
   Page study_page() {
-    Makers chapters{[this] { return own_displacements(); },
+    Makers chapters{[this] { return own_displacements(run_, reader_); },
                     [this] { return variants_chapter(run_); }};
     for (std::size_t i = 0; i < run_.drawn.size(); ++i) {
       const DrawnPress& press = run_.drawn[i];
@@ -193,17 +193,11 @@ class PageMaker {
                 chapters);
   }
 
-  Chapter own_displacements() {
-    return displacements_chapter(
-        reader_.take<DisplacementStudy>(reader_.json(run_.folder / "distances.json")),
-        reader_.rows<DisplacementRow>(run_.folder / "displacements.csv"));
-  }
-
   /// Fits have neither presses of models nor a continuum of their own.
   Page calibration_page() {
     return made("Soft fingertip: fitted to curves",
                 "What curves of force tell of a rubber or of a lattice, and what they leave open",
-                {[this] { return own_displacements(); }});
+                {[this] { return own_displacements(run_, reader_); }});
   }
 
   /// Presses under controllers, or with prescribed motion, one integrator beside the other.

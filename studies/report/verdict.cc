@@ -190,6 +190,12 @@ Chapter verdict_chapter(const RunData& run) {
   return written(std::move(chapter));
 }
 
+Chapter own_displacements(const RunData& run, FolderReader& reader) {
+  return displacements_chapter(
+      reader.take<DisplacementStudy>(reader.json(run.folder / "distances.json")),
+      reader.rows<DisplacementRow>(run.folder / "displacements.csv"));
+}
+
 std::string verdict_text(const std::filesystem::path& run_folder) {
   FolderReader reader;
   const RunData run = read_run(run_folder, reader);
@@ -208,11 +214,7 @@ std::string verdict_text(const std::filesystem::path& run_folder) {
   } else if (!run.summary.materials.empty()) {
     text = tables_text(materials_chapter(read_materials(run, reader)), {"materials"});
   } else if (!calibration.empty() && run.models.empty()) {
-    text =
-        tables_text(displacements_chapter(
-                        reader.take<DisplacementStudy>(reader.json(run_folder / "distances.json")),
-                        reader.rows<DisplacementRow>(run_folder / "displacements.csv")),
-                    {"ratios", "distances"});
+    text = tables_text(own_displacements(run, reader), {"ratios", "distances"});
     for (const Chapter& chapter : fit_chapters(calibration))
       text += tables_text(chapter, {"parameters", "predicted", "next"});
     text += tables_text(transfer_chapter(calibration), {"transfer"});

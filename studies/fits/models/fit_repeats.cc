@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "calibration/statistics/curve_checks.h"
@@ -57,23 +58,22 @@ void share_depths(FitInput& input) {
     return input.curves[i].travel->depths == input.curves[i].x;
   };
   for (const auto& curves : alike(input)) {
-    // Between rows that are depths nothing is asked.
-    std::vector<double> depths;
-    if (std::ranges::all_of(curves, by_rows)) {
+    std::set<double> rows;  // none unless they are the depths of all: between them nothing is asked
+    if (std::ranges::all_of(curves, by_rows))
       for (const std::size_t i : curves)
-        depths.insert(depths.end(), input.curves[i].x.begin(), input.curves[i].x.end());
-      std::ranges::sort(depths);
-      depths.erase(std::ranges::unique(depths).begin(), depths.end());
-    }
-    // Further rows of a press begin under load: where it was touched those before tell.
-    for (const std::size_t i : curves)
-      if (FitCurve& curve = input.curves[i]; curve.continues) {
+        rows.insert(input.curves[i].x.begin(), input.curves[i].x.end());
+    double deepest = 0.0;
+    for (const std::size_t i : curves) {
+      FitCurve& curve = input.curves[i];
+      // Further rows of a press begin under load: where it was touched those before tell.
+      if (curve.continues) {
         const FitCurve& before = input.curves[*curve.continues];
         curve.travel = continued(*std::move(curve.travel), curve, *before.travel, before);
       }
-    const auto reach = [&](std::size_t i) { return input.curves[i].travel->depths.back(); };
-    if (depths.empty())
-      depths = input.curves[*std::ranges::max_element(curves, {}, reach)].travel->depths;
+      deepest = std::max(deepest, curve.travel->depths.back());
+    }
+    const std::vector<double> depths =
+        rows.empty() ? calibration::depths_for_rig(deepest) : std::vector(rows.begin(), rows.end());
     for (const std::size_t i : curves) {
       FitCurve& curve = input.curves[i];
       curve.travel->depths = curve.press.protocol.samples = depths;

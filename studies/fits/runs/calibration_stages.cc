@@ -7,6 +7,7 @@
 
 #include "calibration/files/words.h"
 #include "calibration/moduli/result_io.h"
+#include "calibration/statistics/fit_statistics.h"
 #include "meshes/press/press_response.h"
 #include "meshes/tables/fields_json.h"
 #include "studies/files/json_entry.h"
@@ -73,7 +74,7 @@ FitFile fit_of(const calibration::DisplacementFitFile& found) {
   ratio.estimate = found.poissons_ratio;
   ratio.lower = found.lower;
   ratio.upper = found.upper;
-  ratio.standard_error = (found.upper - found.lower) / 3.92;
+  ratio.standard_error = (found.upper - found.lower) / (2.0 * calibration::normal_95());
   ratio.at_bound = found.at_bound;
   ratio.interval = "posterior";
   fit.covariance = {{std::pow(ratio.standard_error, 2)}};
@@ -152,14 +153,11 @@ std::vector<PlannedJob> CalibrationStages::next(const fs::path& run) {
   std::vector<PlannedJob> jobs;
   while (jobs.empty() && stage_ != Stage::done) {
     if (stage_ == Stage::displacements) jobs = displacement_jobs();
-    if (stage_ == Stage::data && has_forces_) jobs = data_jobs();
-    if (stage_ == Stage::fit && has_forces_) {
-      take_ratio(run);
-      jobs = fits(run);
-    }
-    if (stage_ == Stage::follow_up && has_forces_) jobs = follow_up_jobs(run);
+    if (stage_ == Stage::data) jobs = data_jobs();
+    if (stage_ == Stage::fit) jobs = fits(run);
+    if (stage_ == Stage::follow_up) jobs = follow_up_jobs(run);
     if (stage_ == Stage::finish) finish(run);
-    stage_ = Stage(int(stage_) + 1);
+    stage_ = has_forces_ || stage_ >= Stage::finish ? Stage(int(stage_) + 1) : Stage::finish;
   }
   return jobs;
 }
@@ -223,6 +221,7 @@ std::vector<PlannedJob> CalibrationStages::fits(const fs::path& run) {
              moduli_job(loaded_.config.press.rubber,
                         fit_options(loaded_, loaded_.config.press.lattice.model)),
              false}};
+  take_ratio(run);
   if (setup_.data_from_continuum) take_continuum_data(run);
   // Of two contacts one may have no answer.
   const bool either = other_contact_.has_value();

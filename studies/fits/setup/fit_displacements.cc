@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 
+#include "calibration/statistics/fit_statistics.h"
 #include "meshes/base/files.h"
 #include "meshes/press/markers.h"
+#include "studies/config/elasticity.h"
 #include "studies/config/finger_defaults.h"
 #include "studies/config/text/toml_text.h"
 #include "studies/fits/models/fit_relaxation.h"
@@ -45,7 +47,7 @@ std::string toml_list(const std::vector<std::string>& texts) {
 
 template <typename T>
 std::vector<T> without(std::vector<T> list, std::size_t place) {
-  if (place < list.size()) list.erase(list.begin() + std::ptrdiff_t(place));
+  list.erase(list.begin() + std::ptrdiff_t(place));
   return list;
 }
 
@@ -185,21 +187,12 @@ SplitData split_data(const LoadedConfig& loaded) {
 
 LoadedConfig with_ratio(const LoadedConfig& loaded, const calibration::DisplacementFitFile& fit) {
   // A range is where a number may be anywhere: that of the interval's deviation, to either side.
-  const double share = std::sqrt(3.0) / 1.96;
+  const double share = std::sqrt(3.0) / calibration::normal_95();
   const double nu = fit.poissons_ratio, low = nu + share * (fit.lower - nu),
                high = nu + share * (fit.upper - nu);
-  const meshes::Rubber& rubber = loaded.config.press.rubber;
-  std::vector<std::string> sets{
-      "rubber.poissons_ratio=" + meshes::to_text(nu),
-      "calibration.poisson_range=[" + meshes::to_text(low) + ", " + meshes::to_text(high) + "]",
-      "rubber.shore_hardness=auto", "rubber.bulk_modulus=auto"};
-  using meshes::RubberLaw;
-  const RubberLaw law = rubber.energy.law;
-  const bool by_law = law == RubberLaw::yeoh || law == RubberLaw::mooney_rivlin ||
-                      law == RubberLaw::ogden || loaded.entries.at("rubber.card").given;
-  sets.push_back("rubber.youngs_modulus=" +
-                 (by_law ? "auto" : meshes::to_text(rubber.youngs_modulus) + " Pa"));
-  if (!by_law) sets.emplace_back("rubber.shear_modulus=auto");
+  std::vector<std::string> sets = settings_at_ratio(loaded, nu);
+  sets.push_back("calibration.poisson_range=[" + meshes::to_text(low) + ", " +
+                 meshes::to_text(high) + "]");
   LoadedConfig own = with_sets(loaded, sets);
   keep_spacing(own, loaded);
   return own;

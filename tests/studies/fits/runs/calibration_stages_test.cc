@@ -292,6 +292,17 @@ TEST_F(HeldBackFiles, FurtherRowsArePartOfThePress) {
   EXPECT_LT(fit.predicted[0].rms_relative, 0.1);
 }
 
+/// A travel is interpolated between the depths of its press, whatever stands beside it.
+TEST_F(HeldBackFiles, FewRowsBesideATravelAreNotItsDepths) {
+  std::ofstream(folder_ / "deeper.csv") << "indentation [mm];force [mN]\n1;30\n1.5;55\n2;85\n";
+  std::ofstream(folder_ / "travel.csv") << "position [mm];force [mN]\n0.5;10\n0.8;22\n1.1;35\n";
+  std::vector<std::string> both = sets();
+  both[1] = "calibration.data=[\"" + (folder_ / "deeper.csv").string() + "\", \"" +
+            (folder_ / "travel.csv").string() + "\"]";
+  for (const FitCurve& curve : fit_setup(load_config({{}, both, {}})).input.curves)
+    EXPECT_EQ(curve.travel->depths, calibration::depths_for_rig(2e-3)) << curve.name;
+}
+
 /// Of few rows over an indentation one press of all of them answers, at these depths.
 TEST_F(HeldBackFiles, FewRowsAreTheDepthsOfOnePress) {
   measure("press.csv", 0.0, 1.0);
