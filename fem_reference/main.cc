@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -82,6 +83,16 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
+/// An archive brings Open MPI's components along; its libraries look for them where Debian has
+/// them.
+void use_own_components() {
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
+                      "lib/fingertip/openmpi";
+  const int keep = 0;
+  if (std::filesystem::exists(folder))
+    setenv("OMPI_MCA_mca_base_component_path", folder.c_str(), keep);
+}
+
 /// A process that no launcher has started is alone: Open MPI's search for networks and its helper
 /// daemon are then 0.3 s of start-up for nothing, and it has no folder for the shared file pointers
 /// that checkpoints do not use. Nor has it a session folder, which one process would remove while
@@ -100,6 +111,7 @@ void start_without_network() {
 int main(int argc, char** argv) {
   keep_freed_memory();
   fingertip::meshes::leave_oldest_blas_kernels();
+  use_own_components();
   start_without_network();
   if (argc == 5 && std::strcmp(argv[1], "--triangles") == 0)
     return write_triangles(argv[2], argv[3], argv[4]);

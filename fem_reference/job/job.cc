@@ -54,6 +54,9 @@ void get(const Json& value, std::vector<meshes::Vector3>& places) {
 /// The surface stands beside the job.
 void get(const Json&, std::shared_ptr<const meshes::Solid>&) {}
 
+template <class List>
+concept HoldsFields = meshes::HasFields<typename List::value_type>;
+
 /// Refuses what is no entry and what an entry cannot be, all of it in `broken`.
 template <class Settings>
 void read_fields(const Json& object, const std::string& place, Settings& settings,
@@ -70,7 +73,7 @@ void read_fields(const Json& object, const std::string& place, Settings& setting
     using Member = std::remove_reference_t<decltype(member)>;
     if constexpr (meshes::HasFields<Member>) {
       read_fields(object.at(key), place + key + ".", member, broken);
-    } else if constexpr (requires { requires meshes::HasFields<typename Member::value_type>; }) {
+    } else if constexpr (HoldsFields<Member>) {
       const Json& list = object.at(key);
       if (!list.is_array()) return refuse(key, list, "must be a list");
       member.resize(list.size());

@@ -117,8 +117,7 @@ void FieldOutput<2>::write(const std::filesystem::path& file, int around) {
                           rows == 3 ? component_is_part_of_vector : component_is_part_of_tensor);
   }
   const unsigned rows = unsigned(names_in_space.size());
-  dealii::DataOutBase::VtkFlags flags;
-  flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+  const dealii::DataOutBase::VtkFlags flags = fast_vtu();
   meshes::write_atomically(file, [&](std::ostream& out) {
     if (around > 0)
       dealii::DataOutBase::write_vtu(turned<3>(get_patches(), fields, rows, around), names_in_space,

@@ -9,10 +9,14 @@
 
 namespace fingertip::fem_reference::inline output {
 
-void write_vtu(dealii::DataOut<3>& out, const std::filesystem::path& file) {
+dealii::DataOutBase::VtkFlags fast_vtu() {
   dealii::DataOutBase::VtkFlags flags;
-  flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
-  out.set_flags(flags);
+  flags.compression_level = decltype(flags.compression_level)::best_speed;
+  return flags;
+}
+
+void write_vtu(dealii::DataOut<3>& out, const std::filesystem::path& file) {
+  out.set_flags(fast_vtu());
   // MPI's files leave traces of their own in its folder of the session, where processes that end
   // meanwhile remove them.
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)

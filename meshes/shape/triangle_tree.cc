@@ -1,7 +1,12 @@
 // All of CGAL: its headers take half a minute to compile.
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
+#include <CGAL/version.h>
+#if CGAL_VERSION_MAJOR < 6
+#include <CGAL/AABB_traits.h>
+#else
+#include <CGAL/AABB_traits_3.h>
+#endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Side_of_triangle_mesh.h>
@@ -10,6 +15,7 @@
 #include <cmath>
 #include <iterator>
 #include <utility>
+#include <variant>
 
 #include "meshes/base/errors.h"
 #include "meshes/shape/triangle_mesh.h"
@@ -21,8 +27,22 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using SurfaceMesh = CGAL::Surface_mesh<Point>;
 using Face = SurfaceMesh::Face_index;
-using Tree = CGAL::AABB_tree<
-    CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh>>>;
+using Facet = CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh>;
+
+// From CGAL 6 on traits tell their dimension, and what two figures share is a std::variant.
+#if CGAL_VERSION_MAJOR < 6
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Facet>>;
+template <class Figure, class Shared>
+const Figure* shared_as(const Shared& shared) {
+  return boost::get<Figure>(&shared);
+}
+#else
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Facet>>;
+template <class Figure, class Shared>
+const Figure* shared_as(const Shared& shared) {
+  return std::get_if<Figure>(&shared);
+}
+#endif
 
 Point point_of(const Vector3& w) {
   return {w.x(), w.y(), w.z()};
@@ -137,9 +157,9 @@ std::optional<TriangleTree::Hit> TriangleTree::first_on_ray(const Vector3& start
       trees_->all.first_intersection(ray, [&](Face face) { return std::size_t(face) == except; });
   if (!met) return {};
   Vector3 position = start;
-  if (const Point* point = boost::get<Point>(&met->first))
+  if (const Point* point = shared_as<Point>(met->first))
     position = vector_of(*point);
-  else if (const auto* segment = boost::get<Kernel::Segment_3>(&met->first))
+  else if (const auto* segment = shared_as<Kernel::Segment_3>(met->first))
     position = vector_of(segment->source());
   return Hit{(position - start).norm(), position, std::size_t(met->second)};
 }

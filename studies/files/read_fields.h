@@ -2,8 +2,10 @@
 /// members; they are written by meshes/tables/fields_json.h.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "meshes/base/errors.h"
@@ -38,8 +40,13 @@ void read_value(const JsonEntry& entry, Value& value, std::vector<meshes::Violat
       });
     });
   } else if constexpr (is_optional<Value>) {
-    value.reset();
-    if (!entry.is_null()) read_value(entry, value.emplace(), wrong);
+    if (entry.is_null()) {
+      value = std::nullopt;
+    } else {
+      typename Value::value_type inner{};
+      read_value(entry, inner, wrong);
+      value = std::move(inner);
+    }
   } else if constexpr (is_list<Value>) {
     for (const JsonEntry& element : entry.elements())
       read_value(element, value.emplace_back(), wrong);

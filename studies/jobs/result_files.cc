@@ -50,7 +50,7 @@ std::string damaged_result(const fs::path& folder) {
     if (!marker.contains(files_entry) || !marker[files_entry].is_object()) return name;
     for (const auto& [file, digest] : marker[files_entry].items()) {
       name = file;
-      if (sha256(meshes::read_text(folder / file)) != digest) return name;
+      if (digest != nlohmann::ordered_json(sha256(meshes::read_text(folder / file)))) return name;
     }
   } catch (const meshes::InvalidInput&) {
     return name;
@@ -67,7 +67,8 @@ nlohmann::ordered_json read_marker(const fs::path& folder) {
   const nlohmann::ordered_json marker = parse_json(file);
   nlohmann::ordered_json content = marker;
   if (content.is_object()) content.erase(seal);
-  if (!marker.is_object() || marker.value(seal, nlohmann::ordered_json()) != sha256(content.dump()))
+  if (!marker.is_object() || marker.value(seal, nlohmann::ordered_json()) !=
+                                 nlohmann::ordered_json(sha256(content.dump())))
     throw meshes::InvalidInput(
         {file.string(), "", "is not as it was written", "remove it: the job is then run again"});
   return marker;

@@ -353,6 +353,20 @@ TEST(Coulomb, OneNodeSticksSlidesAndSticksAgain) {
   expect(0.0, -limit, NodeStatus::slide);
 }
 
+/// At Coulomb's limit a node stays what it is: under a plane that waits one that slides goes on
+/// sliding.
+TEST(Coulomb, AtTheLimitANodeStaysWhatItIs) {
+  DenseBody body(Eigen::Vector3d(2.0, 2.0, 0.4).asDiagonal());
+  PlaneContact contact(nodes_at({1.0}, true), ContactMode::coulomb, start, 0.4, 0.3);
+  press(contact, body, 0.1, 0.5);
+  const Eigen::VectorXd before = contact.reactions();
+  for (int wait = 0; wait < 3; ++wait) {
+    press(contact, body, 0.1, 0.5);
+    EXPECT_EQ(contact.status()[0], NodeStatus::slide);
+    EXPECT_TRUE(contact.reactions().isApprox(before, 1e-12));
+  }
+}
+
 /// Friction follows the push at once, in the same step.
 TEST(Coulomb, SlidingForceFollowsThePush) {
   DenseBody body(Eigen::Vector3d(2.0, 2.0, 0.4).asDiagonal());
