@@ -13,7 +13,7 @@ std::filesystem::path executable_folder();
 /// A folder of data: PREFIX/share/fingertip/NAME where the programs are installed, else `source`.
 std::filesystem::path data_folder(const std::string& name, const std::filesystem::path& source);
 
-/// A shared object that the programs pass on: beside them as built, or in PREFIX's library folder.
+/// What the programs pass on or start: beside them as built, or in PREFIX's library folder.
 std::filesystem::path passed_on(const std::string& name);
 
 /// fingertip-fem there; need not exist.

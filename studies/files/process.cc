@@ -78,7 +78,8 @@ struct ScratchFile {
 
 fs::path program_on_path(const std::string& program) {
   const char* const path = std::getenv("PATH");
-  std::string rest = path == nullptr ? "" : path;
+  std::string rest = passed_on("bin").string();
+  if (path != nullptr) rest += std::string(":") + path;
   while (!rest.empty()) {
     const auto colon = rest.find(':');
     const auto candidate = fs::path(rest.substr(0, colon)) / program;

@@ -17,7 +17,7 @@ struct Command {
   std::filesystem::path folder = {};     ///< it starts in; empty: the present one
 };
 
-/// Where `program` is on the PATH; empty when it is not there.
+/// Where `program` is: among those that came along, else on the PATH; empty when it is nowhere.
 std::filesystem::path program_on_path(const std::string& program);
 
 /// mpirun for `ranks` processes on any one machine; the program follows. Throws InvalidInput

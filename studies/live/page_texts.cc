@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "meshes/base/errors.h"
+#include "studies/files/places.h"
 #include "studies/live/page_files.h"
 
 namespace fingertip::studies::inline live {
@@ -24,7 +25,7 @@ std::string file_content(const std::filesystem::path& file) {
 
 std::map<std::string, std::string> page_texts() {
   std::map<std::string, std::string> texts(page_files().begin(), page_files().end());
-  const std::filesystem::path three = "/usr/share/javascript/three";
+  const std::filesystem::path three = data_folder("three", "/usr/share/javascript/three");
   for (const char* script : {"three.min.js", "examples/js/controls/OrbitControls.js"})
     texts[std::filesystem::path(script).filename()] = file_content(three / script);
   return texts;

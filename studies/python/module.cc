@@ -9,6 +9,7 @@
 
 #include "meshes/base/blas.h"
 #include "studies/cli/verbs/verbs.h"
+#include "studies/files/places.h"
 #include "studies/jobs/interrupt.h"
 #include "studies/presses/press_setup.h"
 #include "studies/python/errors.h"
@@ -74,6 +75,7 @@ PYBIND11_MODULE(_core, module) {
              py::arg("ranks"), py::arg("format") = CommandLine().format, py::arg("lossy") = false,
              py::call_guard<py::gil_scoped_release>());
   module.def("check", check, py::arg("config"), py::arg("sets"));
+  module.def("program", [] { return executable_folder() / "fingertip"; });
 }
 
 }  // namespace fingertip::studies::inline python

@@ -6,11 +6,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
 
 #include "studies/config/text/trimmed.h"
+#include "studies/files/places.h"
 
 namespace fingertip::studies::inline config::inline text {
 
@@ -26,8 +28,9 @@ using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 const ut_system& units() {
   static const std::unique_ptr<ut_system, decltype(&ut_free_system)> system = [] {
     ut_set_error_message_handler(ut_ignore);
-    std::unique_ptr<ut_system, decltype(&ut_free_system)> read(ut_read_xml(nullptr),
-                                                               &ut_free_system);
+    const std::filesystem::path own = data_folder("udunits", {}) / "udunits2.xml";
+    std::unique_ptr<ut_system, decltype(&ut_free_system)> read(
+        ut_read_xml(std::filesystem::exists(own) ? own.c_str() : nullptr), &ut_free_system);
     if (!read) throw std::runtime_error("cannot read the UDUNITS-2 unit data base");
     const Unit degree(ut_parse(read.get(), "degree", UT_ASCII));
     ut_map_symbol_to_unit("deg", UT_ASCII, degree.get());
