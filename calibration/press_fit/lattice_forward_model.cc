@@ -124,12 +124,7 @@ LatticeForwardModel::LatticeForwardModel(PressSetup setup,
                                          std::function<bool()> go_on)
     : setup_(std::move(setup)), parameters_(std::move(parameters)), go_on_(std::move(go_on)) {
   check(setup_, parameters_);
-  if (by_moduli()) {
-    using enum PressParameter;
-    press_parameters_ = setup_.lattice.model == ModelKind::network
-                            ? std::vector{shear_modulus, lambda}
-                            : std::vector{k1, k2, kappa};
-  }
+  if (by_moduli()) press_parameters_ = lattice::lame_slopes(setup_.lattice).parameters;
   for (const MaterialParameter parameter : parameters_)
     if (const auto same = press_parameter(parameter)) press_parameters_.push_back(*same);
 }
@@ -155,7 +150,7 @@ PressSetup LatticeForwardModel::setup_with(const Eigen::VectorXd& parameters) co
 Eigen::MatrixXd LatticeForwardModel::chain(const PressSetup& setup) const {
   Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(Eigen::Index(press_parameters_.size()),
                                                 Eigen::Index(parameters_.size()));
-  const double a = setup.lattice.spacing;
+  const auto by_lame = lattice::lame_slopes(setup.lattice).slopes;
   const Eigen::RowVector2d lambda =
       lambda_slopes(setup.rubber.youngs_modulus, setup.rubber.shear_modulus);
   for (Eigen::Index j = 0; j < chain.cols(); ++j) {
@@ -166,11 +161,7 @@ Eigen::MatrixXd LatticeForwardModel::chain(const PressSetup& setup) const {
       continue;
     }
     const Eigen::Vector2d moduli = moduli_slopes(parameter, setup.rubber.poissons_ratio());
-    const double of_shear = moduli(1), of_lambda = lambda.dot(moduli);
-    if (setup.lattice.model == ModelKind::network)
-      chain.col(j).head<2>() << of_shear, of_lambda;
-    else
-      chain.col(j).head<3>() << a * of_shear, a * of_shear, of_lambda - of_shear;
+    chain.col(j).head(by_lame.rows()) = by_lame * Eigen::Vector2d(moduli(1), lambda.dot(moduli));
   }
   return chain;
 }

@@ -105,6 +105,21 @@ std::vector<PressParameter> press_parameters(const LatticeSettings& settings) {
   return {};
 }
 
+LameSlopes lame_slopes(const LatticeSettings& settings) {
+  using enum PressParameter;
+  LameSlopes result;
+  const double a = settings.spacing;
+  if (settings.model == ModelKind::network) {
+    result.parameters = {shear_modulus, lambda};
+    result.slopes = Eigen::Matrix2d::Identity();
+  } else if (settings.model == ModelKind::hookean) {
+    // k1 = k2 = a G, k3 = 0, kappa = lambda - G.
+    result.parameters = {k1, k2, kappa};
+    result.slopes = Eigen::Matrix<double, 3, 2>{{a, 0.0}, {a, 0.0}, {-1.0, 1.0}};
+  }
+  return result;
+}
+
 double value_of(PressParameter parameter, const PressSetup& setup) {
   const LatticeSettings& lattice = setup.lattice;
   switch (parameter) {

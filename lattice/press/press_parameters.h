@@ -1,6 +1,7 @@
 /// The material parameters that a static press can be differentiated by.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "lattice/press/press_setup.h"
@@ -39,6 +40,14 @@ constexpr auto names_of(PressParameter) {
 /// network shear_modulus and lambda, all of them bond and contact. Empty for the published lattice,
 /// which snaps through where an equilibrium ends.
 std::vector<PressParameter> press_parameters(const LatticeSettings& settings);
+
+/// The constants of hookean by rule (lattice::hookean_constants) and those of the network, which
+/// follow from the rubber's moduli. Empty parameters: the model has none.
+struct LameSlopes {
+  std::vector<PressParameter> parameters;
+  Eigen::MatrixX2d slopes;  ///< d(parameters)/d(G, lambda), a row per parameter
+};
+LameSlopes lame_slopes(const LatticeSettings& settings);
 
 /// Value in a setup, in the parameter's unit.
 double value_of(PressParameter parameter, const PressSetup& setup);

@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "lattice/model/constants.h"
 #include "lattice/model/rod.h"
 #include "lattice/press/loop_stability.h"
 #include "lattice/statics/cut_lattice.h"
@@ -143,6 +144,34 @@ void add_step_control(std::vector<Violation>& found, const PressSetup& setup) {
 }  // namespace
 
 namespace {
+
+bool follow_from_rubber(const SpringConstants& own, const PressSetup& setup) {
+  const SpringConstants rule = hookean_constants(setup.rubber, setup.lattice.spacing);
+  const auto near = [](double a, double b, double scale) {
+    return std::abs(a - b) <= 1e-9 * std::abs(scale);
+  };
+  return near(own.k1, rule.k1, rule.k1) && near(own.k2, rule.k2, rule.k1) &&
+         near(own.k3, 0.0, rule.k1) && near(own.kappa, rule.kappa, rule.kappa);
+}
+
+/// Slopes are exact or none.
+void add_slopes(std::vector<Violation>& found, const PressSetup& setup) {
+  if (!setup.slopes) return;
+  const auto refuse = [&](const char* rule, const char* remedy) {
+    found.push_back({"press.slopes", "true", rule, remedy});
+  };
+  if (setup.protocol.mode != meshes::DriveMode::equilibrium)
+    refuse("the slopes of a press in motion are not known", "choose press.mode = static");
+  if (setup.protocol.contact == meshes::ContactMode::coulomb)
+    refuse("the slopes of a press are known where it sticks or is free of friction",
+           "choose press.contact = stick or frictionless");
+  const bool by_rule = setup.lattice.model == ModelKind::network ||
+                       (setup.lattice.model == ModelKind::hookean &&
+                        follow_from_rubber(setup.lattice.constants, setup));
+  if (!by_rule)
+    refuse("the lattice's constants must follow from the rubber's moduli in closed form",
+           "choose lattice.model = hookean or network, and lattice.constants = auto");
+}
 
 void add_relaxation(std::vector<Violation>& found, const PressSetup& setup) {
   const meshes::Relaxation& relaxation = setup.rubber.relaxation;
@@ -305,6 +334,7 @@ std::vector<Violation> PressSetup::violations() const {
   }
   add_rod(found, rod);
   if (found.empty()) add_light_rod(found, *this);
+  add_slopes(found, *this);
   add_step_control(found, *this);
   if (threads < 0) {
     found.push_back({"run.threads", std::to_string(threads),

@@ -40,6 +40,7 @@ struct PressSetup {
   double energy_bound = 1e-7;       ///< of energy_controlled, > 0 (integrators/energy_stepper.h)
   int threads = 0;                  ///< 0: fastest_threads, at rest one. The result does not depend
                                     ///< on it.
+  bool slopes = false;   ///< of a press at rest: its normal force's by E and by Poisson's ratio
   bool symmetry = true;  ///< computes one of the parts that are mirror images of each other, where
                          ///< a moving press has such (moving_sectors)
 

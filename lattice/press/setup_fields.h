@@ -34,6 +34,6 @@ FINGERTIP_FIELDS(HardwareSettings, position, orientation, velocity, angular_velo
 /// What a result depends on: not the threads, and a maker of controllers is its identity.
 FINGERTIP_FIELDS_BUT((make_controller, threads), PressSetup, geometry, rubber, protocol, lattice,
                      rod, controller, controller_identity, follows_path, hardware, duration,
-                     gravity, integrator, time_step, tolerance, energy_bound, symmetry);
+                     gravity, integrator, time_step, tolerance, energy_bound, slopes, symmetry);
 
 }  // namespace fingertip::lattice::inline press

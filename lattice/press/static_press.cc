@@ -59,6 +59,14 @@ std::vector<meshes::Violation> violations_of(const PressSetup& setup) {
   return relevant.violations();
 }
 
+/// d(G, lambda)/d(E, nu): of G = E/(2 + 2 nu) and lambda = E nu/((1 + nu)(1 - 2 nu)).
+Eigen::Matrix2d lame_by_moduli(const meshes::Rubber& rubber) {
+  const double e = rubber.youngs_modulus, g = rubber.shear_modulus, nu = rubber.poissons_ratio(),
+               product = (1.0 + nu) * (1.0 - 2.0 * nu);
+  return Eigen::Matrix2d{{g / e, -g / (1.0 + nu)},
+                         {nu / product, e * (1.0 + 2.0 * nu * nu) / (product * product)}};
+}
+
 void check(const PressSetup& setup) {
   const auto found = violations_of(setup);
   if (!found.empty()) throw meshes::InvalidInput(found);
@@ -68,8 +76,9 @@ void check(const PressSetup& setup) {
 class StaticPress {
  public:
   StaticPress(const PressSetup& setup, const LatticeBody& body, const StaticObserver& observer);
-  /// Carries derivatives along; `system` must outlive the press.
-  void differentiate(const SlopeSystem& system);
+  /// Carries derivatives along; `system` must outlive the press. With the derivatives of its
+  /// parameters by E and Poisson's ratio those of the force go into the response.
+  void differentiate(const SlopeSystem& system, const Eigen::MatrixX2d& by_moduli = {});
   /// Takes pictures along.
   void picture() {
     pictures_.emplace(setup_, body_.sectors, body_.rest, nullptr, Moment::first_touch, outcome_);
@@ -120,6 +129,7 @@ class StaticPress {
   std::optional<PressPictures> pictures_;
   const MarkerPoints markers_;
   PressSlopes slopes_;
+  Eigen::MatrixX2d by_moduli_;  ///< of its parameters; empty: not wanted
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
@@ -148,8 +158,9 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
   take_census();
 }
 
-void StaticPress::differentiate(const SlopeSystem& system) {
+void StaticPress::differentiate(const SlopeSystem& system, const Eigen::MatrixX2d& by_moduli) {
   slope_system_ = &system;
+  by_moduli_ = by_moduli;
   search_tolerance_ = tolerance_ = slope_tolerance;
   now_.slopes = system.at_rest();
 }
@@ -343,6 +354,10 @@ void StaticPress::note_slopes() {
   append(plane.normal.transpose() * force, slopes_.normal_force);
   append(plane.t1.transpose() * force, slopes_.lateral_force_x);
   append(plane.t2.transpose() * force, slopes_.lateral_force_y);
+  if (by_moduli_.size() == 0) return;
+  const Eigen::RowVector2d slopes = slopes_.normal_force.bottomRows(1) * by_moduli_;
+  outcome_.response.back().slope_youngs_modulus = slopes(0);
+  outcome_.response.back().slope_poissons_ratio = slopes(1);
 }
 
 void StaticPress::note_contact() {
@@ -392,6 +407,12 @@ StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& ob
       static_body(setup, largest_symmetry(setup.geometry, setup.lattice, setup.protocol));
   StaticPress press(setup, body, observer);
   if (pictured) press.picture();
+  std::optional<SlopeSystem> slopes;
+  if (setup.slopes) {
+    const LameSlopes by_lame = lame_slopes(setup.lattice);
+    press.differentiate(slopes.emplace(setup, body, by_lame.parameters),
+                        by_lame.slopes * lame_by_moduli(setup.rubber));
+  }
   return press.run();
 }
 

@@ -48,6 +48,9 @@ struct PressSample {
   double stage = unknown;                ///< of the press's program, from 1; unknown without one
   /// Estimated root mean square over the contact of what its pressures are off [Pa].
   double pressure_error = unknown;
+  /// Of the normal force of a lattice at rest by the rubber's moduli: by E at held Poisson's ratio
+  /// [N/Pa = m²], by Poisson's ratio at held E [N].
+  double slope_youngs_modulus = unknown, slope_poissons_ratio = unknown;
   /// Estimated errors of what they are called by, of a continuum from its meshes [m], [m²], [Pa].
   double contact_radius_error = unknown, contact_area_error = unknown, max_pressure_error = unknown;
 
@@ -81,23 +84,25 @@ struct PressSample {
 
 /// The columns of response.csv.
 consteval auto fields_of(const PressSample*) {
-  return FINGERTIP_ALL_MEMBERS(PressSample, indentation, normal_force, lateral_force_x,
-                               lateral_force_y, torque_x, torque_y, torque_z, contact_radius,
-                               max_pressure, force_error, time, contact_area, mean_pressure,
-                               lateral_displacement, twist, spin_torque, lateral_force_error,
-                               torque_error, stage, pressure_error, contact_radius_error,
-                               contact_area_error, max_pressure_error, step_error)
+  return FINGERTIP_ALL_MEMBERS(
+             PressSample, indentation, normal_force, lateral_force_x, lateral_force_y, torque_x,
+             torque_y, torque_z, contact_radius, max_pressure, force_error, time, contact_area,
+             mean_pressure, lateral_displacement, twist, spin_torque, lateral_force_error,
+             torque_error, stage, pressure_error, contact_radius_error, contact_area_error,
+             max_pressure_error, step_error, slope_youngs_modulus, slope_poissons_ratio)
       .in("m", "indentation contact_radius lateral_displacement contact_radius_error")
       .in("rad", "twist")
       .in("N",
-          "normal_force lateral_force_x lateral_force_y force_error step_error lateral_force_error")
+          "normal_force lateral_force_x lateral_force_y force_error step_error lateral_force_error "
+          "slope_poissons_ratio")
       .in("N m", "torque_x torque_y torque_z spin_torque torque_error")
-      .in("m^2", "contact_area contact_area_error")
+      .in("m^2", "contact_area contact_area_error slope_youngs_modulus")
       .in("Pa", "mean_pressure max_pressure pressure_error max_pressure_error")
       .in("s", "time")
       .if_known(
           "lateral_displacement twist spin_torque lateral_force_error torque_error stage "
-          "pressure_error contact_radius_error contact_area_error max_pressure_error step_error");
+          "pressure_error contact_radius_error contact_area_error max_pressure_error step_error "
+          "slope_youngs_modulus slope_poissons_ratio");
 }
 
 /// A curve of samples by increasing indentation, and then, where a lateral motion or a twist

@@ -222,7 +222,7 @@ void tell(const CommandLine& line, const std::filesystem::path& file, const Geom
     if (!line.stl.empty()) write_triangles(line, triangles_of(meridian), file.stem());
     figure = section(meridian, stem);
   }
-  const fs::path folder = line.out.empty() ? file.parent_path() : line.out;
+  const fs::path& folder = line.out;  // here, where none is named: the file may be somebody else's
   if (!folder.empty()) fs::create_directories(folder);
   report::draw(figure, file.stem().string() + ", section", folder.empty() ? "." : folder);
   fmt::print("  drawn             {}\n", (folder / (stem + ".svg")).string());

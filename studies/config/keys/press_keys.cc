@@ -120,6 +120,13 @@ std::vector<Key> press_keys() {
                protocol(&PressProtocol::clearance)),
       samples,
       program,
+      with_rule(plain("press", "slopes", {},
+                      "also tell how the normal force changes with E (Poisson's ratio held) and "
+                      "with Poisson's ratio (E held): columns slope_youngs_modulus and "
+                      "slope_poissons_ratio",
+                      at(&Config::press, &lattice::PressSetup::slopes)),
+                "static presses, stick or frictionless, hookean or network",
+                {"press.mode", "press.contact", "lattice.model"}),
       quantity("press", "gravity", "m/s^2", "m/s^2", not_negative,
                "acceleration of gravity on rod and tip, toward the plane (moving lattices)",
                at(&Config::press, &lattice::PressSetup::gravity)),

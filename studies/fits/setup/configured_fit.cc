@@ -75,7 +75,8 @@ void check_models(const LoadedConfig& loaded, const FitInput& input) {
 
 /// The lattice is needed where constants are sought or the press is the lattice's.
 lattice::PressSetup base_of(const LoadedConfig& loaded) {
-  return press_setup(with_sets(loaded, {"press.mode=static"}), lattice_of_fit(loaded));
+  return press_setup(with_sets(loaded, {"press.mode=static", "press.slopes=false"}),
+                     lattice_of_fit(loaded));
 }
 
 /// Presses that are planned have no times.

@@ -117,7 +117,8 @@ void refuse_motion(const LoadedConfig& own, const meshes::PressProtocol& protoco
 }
 
 FitCurve& add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
-  const lattice::PressSetup press = press_setup(own, lattice_of_fit(own));
+  lattice::PressSetup press = press_setup(own, lattice_of_fit(own));
+  press.slopes = false;  // a fit asks for those by what it seeks
   refuse_motion(own, press.protocol);
   FitCurve& added = add_curve(fit.input, kind, std::move(curve), described(press));
   added.press = press;

@@ -28,14 +28,14 @@ from .errors import (
     ProcessLost,
     TestsFailed,
 )
-from .runs import Calibration, Comparison, Response, Run
+from .runs import Calibration, Comparison, Presses, Response, Run
 from .settings import Key, config_file, described, keys, sections, sets
 from .tables import Table, read_csv
 
 __all__ = [
     "Calibration", "CannotWrite", "Comparison", "ConfigError", "Contact", "ControllerFailed", "Error",
-    "Finger", "Key", "Measurement", "NotConverged", "Problem", "ProcessLost", "Response", "Run", "Table",
-    "Target", "TestsFailed", "Wrench", "calibrate", "check", "compare", "export", "grasp", "keys", "modes", "press",
+    "Finger", "Key", "Measurement", "NotConverged", "Presses", "Problem", "ProcessLost", "Response", "Run", "Table",
+    "Target", "TestsFailed", "Wrench", "calibrate", "check", "compare", "export", "grasp", "keys", "modes", "press", "presses",
     "read_csv", "reference", "run", "sections", "validate",
 ]  # fmt: skip
 
@@ -65,10 +65,36 @@ def _run(kind, verb, arguments, config, settings, out, force, resume, quiet, ran
     return result
 
 
-def press(settings: Mapping[str, Any] | None = None, *, config=None, out=None, force=False, resume=False,
-          quiet=True, **further) -> Response:  # fmt: skip
-    """Presses the lattice."""
+SLOPES = ("rubber.youngs_modulus", "rubber.poissons_ratio")
+
+
+def press(settings: Mapping[str, Any] | None = None, *, slopes: Sequence[str] = (), config=None, out=None,
+          force=False, resume=False, quiet=True, **further) -> Response:  # fmt: skip
+    """Presses the lattice. `slopes`: keys by which `press.slopes[key]` then has the exact derivatives of the
+    normal force at rest: rubber.youngs_modulus (Poisson's ratio held), rubber.poissons_ratio (E held)."""
+    if unknown := [name for name in slopes if name not in SLOPES]:
+        raise ConfigError([("slopes", str(name), "", "no exact slope is known by this key",
+                            "choose among " + ", ".join(SLOPES)) for name in unknown])  # fmt: skip
+    if slopes:
+        further["press_slopes"] = True
     return _run(Response, "press", [], config, settings, out, force, resume, quiet, 1, further)
+
+
+def presses(axes: Mapping[str, Sequence[Any]], settings: Mapping[str, Any] | None = None, *, config=None, out=None,
+            resume=False, quiet=False, threads=0, **further) -> Presses:  # fmt: skip
+    """Presses the lattice with every combination of values of the keys in `axes`, {"section.key": [values]},
+    `threads` at a time (0: as many as there are cores): the verb sweep. What did not converge is left out, and told."""
+    if wrong := [key for key, values in axes.items() if isinstance(values, str) or not hasattr(values, "__len__")]:
+        raise ConfigError([(key, str(axes[key]), "", "an axis is a list of values", "put it into brackets")
+                           for key in wrong])  # fmt: skip
+    folder = os.fspath(out) if out is not None else _fresh("sweep")
+    given = sets(settings, further) + sets(axes, {}) + ([f"run.threads={threads}"] if threads else [])
+    code = _core.run("sweep", ["press"], config_file(config), given, folder, False, resume, quiet, 1)
+    result = Presses(folder)
+    if code == 3:
+        missing = int((result.samples["status"] != "finished").sum())
+        raise NotConverged(f"{missing} of {result.samples.rows} presses did not converge: {folder}", result)
+    return result
 
 
 def reference(settings: Mapping[str, Any] | None = None, *, config=None, out=None, force=False, resume=False,

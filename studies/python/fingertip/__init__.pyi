@@ -1,6 +1,6 @@
 from os import PathLike
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 from typing_extensions import Unpack
 
@@ -20,6 +20,7 @@ from .errors import TestsFailed as TestsFailed
 from .keys import Keys
 from .runs import Calibration as Calibration
 from .runs import Comparison as Comparison
+from .runs import Presses as Presses
 from .runs import Response as Response
 from .runs import Run as Run
 from .settings import Key as Key
@@ -31,7 +32,8 @@ from .tables import read_csv as read_csv
 _File = str | PathLike[str]
 _Settings = Mapping[str, Any] | None
 
-def press(settings: _Settings = None, *, config: _File | None = None, out: _File | None = None, force: bool = False, resume: bool = False, quiet: bool = True, **further: Unpack[Keys]) -> Response: ...
+def press(settings: _Settings = None, *, slopes: Sequence[str] = (), config: _File | None = None, out: _File | None = None, force: bool = False, resume: bool = False, quiet: bool = True, **further: Unpack[Keys]) -> Response: ...
+def presses(axes: Mapping[str, Sequence[Any]], settings: _Settings = None, *, config: _File | None = None, out: _File | None = None, resume: bool = False, quiet: bool = False, threads: int = 0, **further: Unpack[Keys]) -> Presses: ...
 def reference(settings: _Settings = None, *, config: _File | None = None, out: _File | None = None, force: bool = False, resume: bool = False, quiet: bool = True, ranks: int = 1, **further: Unpack[Keys]) -> Response: ...
 def calibrate(settings: _Settings = None, *, config: _File | None = None, out: _File | None = None, force: bool = False, resume: bool = False, quiet: bool = True, **further: Unpack[Keys]) -> Calibration: ...
 def modes(settings: _Settings = None, *, config: _File | None = None, out: _File | None = None, force: bool = False, resume: bool = False, quiet: bool = True, **further: Unpack[Keys]) -> Run: ...

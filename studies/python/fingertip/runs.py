@@ -108,6 +108,13 @@ class Response(Run):
         return self.samples["force_error"]
 
     @property
+    def slopes(self) -> dict[str, np.ndarray]:
+        """Of normal_force by a key, SI; empty unless the press was asked for slopes."""
+        there = {"rubber.youngs_modulus": "slope_youngs_modulus", "rubber.poissons_ratio": "slope_poissons_ratio"}
+        known = {key: self.samples[name] for key, name in there.items() if name in self.samples.units}
+        return {key: values for key, values in known.items() if not np.isnan(values).all()}
+
+    @property
     def contact_radius(self) -> np.ndarray:
         """[m]"""
         return self.samples["contact_radius"]
@@ -130,6 +137,39 @@ class Response(Run):
         what = [self.summary.get(name) for name in ("model", "analysis", "kinematics", "strain", "contact")]
         title = ", ".join(str(word) for word in what if word)
         return f"<p>{html.escape(title)} — {html.escape(str(self.folder))}</p>{self.samples._repr_html_()}"
+
+
+class Presses(Run):
+    """Presses by combinations of values: a row per press, and all their curves."""
+
+    @cached_property
+    def samples(self) -> Table:
+        """table.csv: settings, answer and summary of each press."""
+        return self.table("table")
+
+    @cached_property
+    def axes(self) -> list[str]:
+        """The keys that vary, columns of both tables."""
+        return json.loads((self.folder / "sweep.json").read_text(encoding="utf-8"))["axes"]
+
+    @cached_property
+    def curves(self) -> Table:
+        """curves.csv: the rows of all response.csv behind the values of the axes."""
+        return self.table("curves")
+
+    def press(self, row: int) -> Response:
+        """That of a row of `samples`."""
+        return Response(self.folder / "points" / str(self.samples["point"][row]))
+
+    def to_dataframe(self):
+        """A pandas.DataFrame of the curves."""
+        return self.curves.to_dataframe()
+
+    def to_xarray(self):
+        """An xarray.Dataset over the axes and the number of the sample, NaN where a press has none."""
+        frame = self.curves.to_dataframe()
+        frame["sample"] = frame.groupby("point").cumcount() + 1
+        return frame.drop(columns="point").set_index([*self.axes, "sample"]).to_xarray()
 
 
 class Calibration(Run):

@@ -286,6 +286,30 @@ TEST(BodySlope, IsTheDerivativeOfTheEnergy) {
   }
 }
 
+/// By E at held Poisson's ratio forces are proportional; by Poisson's ratio central differences.
+TEST(PressSlopes, ByTheRubbersModuliStandInTheResponse) {
+  for (const ModelKind model : {ModelKind::hookean, ModelKind::network}) {
+    for (const ContactMode contact : {ContactMode::stick, ContactMode::frictionless}) {
+      const auto pressed = [&](double ratio) {
+        PressSetup setup =
+            press_at(5, depths(0.08), contact, model,
+                     model == ModelKind::network ? Kinematics::finite : Kinematics::small);
+        setup.protocol.mode = meshes::DriveMode::equilibrium;
+        setup.slopes = true;
+        setup.rubber.shear_modulus = setup.rubber.youngs_modulus / (2.0 * (1.0 + ratio));
+        setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+        return std::pair(run_static_press(setup).response.back(), setup.rubber.youngs_modulus);
+      };
+      constexpr double ratio = 0.42, change = 1e-5;
+      const auto [sample, modulus] = pressed(ratio);
+      EXPECT_NEAR(modulus * sample.slope_youngs_modulus / sample.normal_force, 1.0, 1e-9);
+      const double more = pressed(ratio + change).first.normal_force,
+                   less = pressed(ratio - change).first.normal_force;
+      EXPECT_NEAR(sample.slope_poissons_ratio / ((more - less) / (2.0 * change)), 1.0, 1e-5);
+    }
+  }
+}
+
 TEST(PressParameters, ChangeOneByOne) {
   for (const ModelKind model : {ModelKind::hookean, ModelKind::central, ModelKind::network}) {
     const PressSetup setup = press_at(6, {0.1}, ContactMode::stick, model, Kinematics::small);

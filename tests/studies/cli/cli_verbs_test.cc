@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 
 #include "tests/studies/workplace.h"
 
@@ -37,6 +38,12 @@ TEST(Verbs, ShapeTellsMeasuresAndDraws) {
                    {"thinnest wall     2.5 mm", "rubber            4205.2 mm^3",
                     "pole above bond   25 mm", "tip_radius/20"}));
   EXPECT_TRUE(folder.has("drawn/finger_section.svg"));
+  // Here, not in a folder of somebody else's data.
+  std::filesystem::create_directories(folder / "others");
+  folder.put("others/finger.csv", hollow);
+  folder.run("shape others/finger.csv");
+  EXPECT_TRUE(folder.has("finger_section.svg"));
+  EXPECT_FALSE(folder.has("others/finger_section.svg"));
 
   // A solid one has no wall: neither across, as wide as it is, nor up to its pole.
   folder.put("solid.csv", profile("12.5,0,contact,\n12.5,12.5,contact,arc 0 12.5\n"

@@ -236,8 +236,9 @@ const Sets no_continuum = {"reference."}, no_fit = {"calibration."}, no_grasp = 
            no_modes = {"lattice.modes"}, no_rod = {"rod.", "hardware."},
            no_time = {"run.",          "controller.",   "press.speed", "press.clearance",
                       "press.gravity", "press.duration"};
-/// A lattice that moves does so diagonally.
-const Sets diagonal = {"press.lateral_path", "press.lateral_samples", "press.twist"},
+/// A lattice that moves does so diagonally, and knows no slopes.
+const Sets diagonal = {"press.lateral_path", "press.lateral_samples", "press.twist",
+                       "press.slopes"},
            no_friction = {"press.friction"};
 /// Refused where a lattice in equilibrium takes part.
 const Sets relaxation = {"rubber.relaxation", "rubber.relaxation_bulk"};
@@ -279,8 +280,8 @@ const World worlds[] = {
      continuum,
      nowhere + Sets{"press.lateral_samples"} + no_fit + no_grasp + no_rod + no_time +
          // Aside, so that it is no meridian.
-         split(
-             "lattice. press.mode rubber.density rubber.retardation_time reference.field_sectors")},
+         split("lattice. press.mode press.slopes rubber.density rubber.retardation_time "
+               "reference.field_sectors")},
     {"continuum in time",
      {"reference.mode=transient"},
      continuum,

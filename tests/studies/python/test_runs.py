@@ -98,6 +98,65 @@ class Results(InFolder):
                             rubber_poissons_ratio=0.3)  # fmt: skip
 
 
+class Slopes(InFolder):
+    def test_are_derivatives_of_the_force(self):
+        def pressed(modulus, ratio, **further):
+            return fingertip.press(QUICK, press_mode="static", rubber_youngs_modulus=f"{modulus} kPa",
+                                   rubber_poissons_ratio=ratio, **further)  # fmt: skip
+
+        for contact in "stick", "frictionless":
+            press = pressed(60.0, 0.45, press_contact=contact, slopes=["rubber.poissons_ratio"])
+            # Forces are E times a function of Poisson's ratio.
+            np.testing.assert_allclose(6e4 * press.slopes["rubber.youngs_modulus"], press.normal_force, rtol=1e-9)
+            low, high = (pressed(60.0, ratio, press_contact=contact, press_slopes=True).normal_force
+                         for ratio in (0.45 - 1e-4, 0.45 + 1e-4))  # fmt: skip
+            np.testing.assert_allclose(press.slopes["rubber.poissons_ratio"], (high - low) / 2e-4, rtol=1e-4)
+
+    def test_are_exact_or_refused(self):
+        with self.assertRaisesRegex(fingertip.ConfigError, "no exact slope"):
+            fingertip.press(QUICK, press_mode="static", slopes=["geometry.tip_radius"])
+        for wrong in {"press_mode": "quasi-static"}, {"press_contact": "coulomb"}, {"lattice_model": "central"}:
+            with self.assertRaisesRegex(fingertip.ConfigError, "press.slopes"):
+                fingertip.press(QUICK, **{"press_mode": "static", **wrong}, slopes=["rubber.poissons_ratio"])
+        self.assertEqual(fingertip.press(QUICK, press_mode="static").slopes, {})
+
+
+class Many(InFolder):
+    AXES = {"rubber.youngs_modulus": ["20 kPa", "40 kPa"], "press.contact": ["stick", "frictionless"]}
+
+    def test_presses_are_those_of_one_by_one(self):
+        many = fingertip.presses(self.AXES, QUICK, press_mode="static", threads=2, quiet=True)
+        self.assertEqual(many.samples.rows, 4)
+        self.assertEqual(set(many.axes), set(self.AXES))
+        one = fingertip.press(QUICK, press_mode="static", rubber_youngs_modulus="40 kPa", press_contact="stick")
+        row = next(i for i in range(4) if many.samples["press.contact"][i] == "stick"
+                   and many.samples["rubber.youngs_modulus"][i] == "40 kPa")  # fmt: skip
+        np.testing.assert_array_equal(many.press(row).normal_force, one.normal_force)
+        try:
+            cube = many.to_xarray()
+        except ImportError:
+            self.skipTest("no pandas and xarray here")
+        here = cube.sel({"rubber.youngs_modulus": "40 kPa", "press.contact": "stick"})
+        np.testing.assert_array_equal(here["normal_force"], one.normal_force)
+
+    def test_an_axis_is_a_list(self):
+        with self.assertRaisesRegex(fingertip.ConfigError, "list of values"):
+            fingertip.presses({"press.contact": "stick"}, QUICK)
+
+
+class Example(InFolder):
+    def test_finds_the_wall(self):
+        import contextlib
+        import io
+        import runpy
+
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            names = runpy.run_path(os.environ["FINGERTIP_EXAMPLES"] + "/wall_for_a_force.py")
+        self.assertLess(abs(names["miss"]), 1e-3)
+        self.assertTrue(4.0 < names["wall"] < 9.0, said.getvalue())
+
+
 class Rejected(InFolder):
     def test_says_so_first(self):
         Path("fit").mkdir()
