@@ -2,7 +2,8 @@
 """Makes what runs without root and compiler, from programs that are built: bundle.py BUILD portable|wheel.
 
 Both hold the programs with the libraries that they load, in lib/fingertip, where the programs look for them and what
-these need; only libc and the compiler's own libraries are the system's. Licences of what is bundled lie in share/doc/fingertip/licences.
+these need; only libc and the compiler's own libraries are the system's. Licences of what is bundled lie in
+share/doc/fingertip/licences.
 """
 
 import base64
@@ -86,11 +87,9 @@ class Bundle:
             self.copy(program, LIBRARIES / "bin" / name)
 
     def add_openmpi(self):
-        """Its components, which it loads while it runs; not those of networks that one machine has not."""
-        folders = sorted(Path("/usr/lib").glob("*/openmpi/lib/openmpi3"))
-        if not folders:
-            sys.exit("bundle.py: Open MPI's components are not there; install openmpi-bin")
-        for component in sorted(folders[0].glob("mca_*.so")):
+        """Its components, which before version 5 it loads while it runs; not those of networks that one machine has not.
+        """
+        for component in sorted(Path("/usr/lib").glob("*/openmpi/lib/openmpi*/mca_*.so")):
             wanted = loaded_by(component)
             if None in wanted.values():
                 continue
@@ -165,7 +164,7 @@ def write_wheel(build, version):
     (facts / "METADATA").write_text(
         f"Metadata-Version: 2.1\nName: fingertip\nVersion: {version}\nLicense: GPL-3.0-or-later\n"
         "Summary: Soft fingertips: mass-spring lattice against continuum\nRequires-Dist: numpy\n"
-        "Requires-Python: >=3.11\n")
+        f"Requires-Python: =={sysconfig.get_python_version()}.*\n")
     (facts / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: fingertip\nRoot-Is-Purelib: false\nTag: {tag}\n")
     (facts / "entry_points.txt").write_text("[console_scripts]\nfingertip = fingertip.__main__:main\n")
     target = build / f"package/fingertip-{version}-{tag}.whl"
