@@ -28,7 +28,7 @@ from .errors import (
     ProcessLost,
     TestsFailed,
 )
-from .runs import Calibration, Comparison, Presses, Response, Run
+from .runs import SLOPES, Calibration, Comparison, Presses, Response, Run
 from .settings import Key, config_file, described, keys, sections, sets
 from .tables import Table, read_csv
 
@@ -63,9 +63,6 @@ def _run(kind, verb, arguments, config, settings, out, force, resume, quiet, ran
         raise TestsFailed("; ".join(map(str, failed)) or f"tests failed: {out}", result)
     result._warn()
     return result
-
-
-SLOPES = ("rubber.youngs_modulus", "rubber.poissons_ratio")
 
 
 def press(settings: Mapping[str, Any] | None = None, *, slopes: Sequence[str] = (), config=None, out=None,

@@ -16,6 +16,10 @@ from .errors import ConfigError
 from .tables import Table, compiled, read_csv
 
 
+# Keys by which exact slopes of a force are known, and the columns that have them.
+SLOPES = {"rubber.youngs_modulus": "slope_youngs_modulus", "rubber.poissons_ratio": "slope_poissons_ratio"}
+
+
 class Run:
     """A finished run: its folder, and what is in it."""
 
@@ -110,9 +114,7 @@ class Response(Run):
     @property
     def slopes(self) -> dict[str, np.ndarray]:
         """Of normal_force by a key, SI; empty unless the press was asked for slopes."""
-        there = {"rubber.youngs_modulus": "slope_youngs_modulus", "rubber.poissons_ratio": "slope_poissons_ratio"}
-        known = {key: self.samples[name] for key, name in there.items() if name in self.samples.units}
-        return {key: values for key, values in known.items() if not np.isnan(values).all()}
+        return {key: self.samples[name] for key, name in SLOPES.items() if self.samples._known(name)}
 
     @property
     def contact_radius(self) -> np.ndarray:
