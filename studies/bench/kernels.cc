@@ -84,15 +84,12 @@ class Programs {
                                       std::to_string(plan_.threads),
                                       "--seconds",
                                       std::to_string(plan_.seconds),
-                                      "--sizes",
-                                      fmt::format("{}", fmt::join(plan_.sizes, ",")),
                                       "--benchmark_out_format=json",
                                       "--benchmark_out=" + out.string()};
     if (plan_.widest > 0) words.insert(words.end(), {"--widest", std::to_string(plan_.widest)});
     words.push_back(number < plan_.wide_rounds
                         ? "--benchmark_filter=-part plain|part scaled 10?e"  // the slowest alone
-                        : "--benchmark_filter=multiply-add|bandwidth|edge_list|part scaled 30e|"
-                          "springs/.*float64.*size:(20|48)/");
+                        : "--benchmark_filter=arithmetic|bandwidth|_step|part scaled 30e");
     const fs::path log = folder_ / "kernels.log";
     if (const int code = run_process({words, {}}, log, interrupted); code != 0)
       throw std::runtime_error(
@@ -141,9 +138,8 @@ class Programs {
           plan_.lammps.empty() ? "left out" : plan_.lammps + " is not on the PATH (package lammps)";
       return;
     }
-    for (const int size : {20, 48})
-      if (std::ranges::count(plan_.sizes, size) > 0)
-        lammps_springs_[size] = write_lammps_cube(lammps_folder(size), size, size > 30 ? 40 : 400);
+    for (const int size : plan_.sizes)
+      lammps_springs_[size] = write_lammps_cube(lammps_folder(size), size, size > 30 ? 40 : 400);
   }
 
   fs::path lammps_folder(int size) const {

@@ -18,10 +18,10 @@ struct KernelSample {
   std::string name, isa, precision;
   int threads = 1, size = 0;
   double masses = 0.0, springs = 0.0;
-  double operations = 0.0;  ///< multiply-adds per spring, 0 where not counted
+  double operations = 0.0;  ///< per spring, 0 where not counted
   double cache = 0.0;       ///< of a bandwidth's probe: how large that cache is [bytes]
   double bytes = 0.0;       ///< memory that a part of a step touches; 0 where not told
-  /// Per spring and step [ns], for probes per multiply-add or byte, for parts per step. With one
+  /// Per spring and step [ns], for probes per operation or byte, for parts per step. With one
   /// thread processor time, which others on the machine disturb least; with more wall time.
   double cost = 0.0;
   double wall_cost = 0.0;  ///< [ns]

@@ -36,7 +36,7 @@ std::vector<PressedLattice> presses(const std::vector<int>& spacings) {
 
 BenchPlan full_plan() {
   BenchPlan plan;
-  plan.sizes = {20, 48, 22, 70, 100};
+  plan.sizes = {20, 48};
   plan.presses = presses({6, 8, 12, 16, 24});
   plan.continua = {{1, 1.0}, {1, 2.0}, {2, 0.5}, {2, 1.0}, {2, 2.0}};
   return plan;

@@ -31,7 +31,7 @@ struct BenchPlan {
   int rounds = 5;              ///< of ratios: fingertip-kernels, then the peers
   int wide_rounds = 3;         ///< of these, with kernels of which no ratio is asked
   double seconds = 0.1;        ///< per kernel and round [s]
-  std::vector<int> sizes;      ///< masses along the cubes' edges; ratios are of 20 and 48
+  std::vector<int> sizes;      ///< masses along the edges of LAMMPS's cubes, of 20 and 48
   int threads = 2;             ///< most of the kernels, and ranks of LAMMPS
   int widest = 0;              ///< doubles per register, 2, 4 or 8; 0: what the processor has
   std::string lammps = "lmp";  ///< program; empty: leave it out

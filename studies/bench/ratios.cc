@@ -19,10 +19,9 @@ using nlohmann::ordered_json;
 
 constexpr const char* isas[] = {"sse2", "avx2", "avx512"};
 
-double cost_in(const KernelRound& round, const std::string& key, bool wall = false) {
+double cost_in(const KernelRound& round, const std::string& key) {
   const auto found = round.find(key);
-  if (found == round.end()) return meshes::unknown;
-  return wall ? found->second.wall_cost : found->second.cost;
+  return found == round.end() ? meshes::unknown : found->second.cost;
 }
 
 std::vector<double> costs(const KernelRounds& rounds, const std::string& key) {
@@ -34,14 +33,6 @@ std::vector<double> costs(const KernelRounds& rounds, const std::string& key) {
 
 std::string probe_key(const std::string& name, const std::string& isa) {
   return name + "/" + isa + "/float64/1/0";
-}
-
-std::string springs_key(int threads, int size) {
-  return fmt::format("springs/avx512/float64/{}/{}", threads, size);
-}
-
-std::string edge_list_key(int size) {
-  return fmt::format("edge_list/sse2/float64/1/{}", size);
 }
 
 std::string lammps_key(int ranks, int size) {
@@ -59,10 +50,16 @@ bool is_part(const KernelSample& s) {
   return s.name.starts_with("part ");
 }
 
-/// The roof over a kernel: of the spring engine the operations in multiply pipes are counted, of
-/// the others all, unfused.
+/// The roof over a kernel.
 std::string roof_key(const KernelSample& s) {
-  return probe_key(s.name == "springs" ? "multiply-add" : "arithmetic", s.isa);
+  return probe_key("arithmetic", s.isa);
+}
+
+/// A time step of a model, with the widest registers that there are; none: null.
+const KernelSample* step_of(const KernelRound& round, const std::string& model, int threads) {
+  for (const auto& [key, s] : round)
+    if (s.name == model + "_step" && s.threads == threads) return &s;
+  return nullptr;
 }
 
 constexpr const char* own_roof =
@@ -114,10 +111,7 @@ ordered_json probes_of(const KernelRounds& rounds) {
   const auto rate = [&](const std::string& key) {
     return meshes::json_of(1e9 / median(costs(rounds, key)));
   };
-  ordered_json result = {{"multiply_adds_per_second", ordered_json::object()}};
-  for (const char* isa : isas)
-    result["multiply_adds_per_second"][isa] = rate(probe_key("multiply-add", isa));
-  result["operations_per_second"] = ordered_json::object();
+  ordered_json result = {{"operations_per_second", ordered_json::object()}};
   for (const char* isa : isas)
     result["operations_per_second"][isa] = rate(probe_key("arithmetic", isa));
   result["bandwidth_L2"] = rate(probe_key("bandwidth_L2", "sse2"));
@@ -181,10 +175,10 @@ Ratios ratios_of(const KernelRounds& rounds) {
   Ratios result{ordered_json::object(), ordered_json::object(), ordered_json::object()};
   const auto why = [&](const std::string& name) -> std::string {
     if (rounds.missing.contains("kernels")) return rounds.missing.at("kernels");
-    const bool measured = !costs(rounds, probe_key("multiply-add", "avx512")).empty();
-    const bool of_peers = name.starts_with("edge_list_over");
-    if (!measured && !of_peers)
-      return "needs AVX-512, which this processor lacks or the run left out";
+    const bool measured = std::ranges::any_of(rounds.rounds, [](const KernelRound& round) {
+      return step_of(round, "published", 1) != nullptr;
+    });
+    if (!measured) return "steps take the widest registers, which the run left out";
     if (name.find("lammps") != name.npos && rounds.missing.contains("lammps"))
       return rounds.missing.at("lammps");
     return "not measured with these sizes and threads";
@@ -198,34 +192,21 @@ Ratios ratios_of(const KernelRounds& rounds) {
     result.rounds[name] = all;
     if (all.empty()) result.missing[name] = why(name);
   };
-  const auto over = [](const std::string& numerator, const std::string& denominator) {
-    return [=](const KernelRound& r) { return cost_in(r, numerator) / cost_in(r, denominator); };
-  };
-  for (const int threads : {1, 2})
-    for (const int size : {48, 20})
-      add(fmt::format("edge_list_{}_{}t", size, threads),
-          over(edge_list_key(size), springs_key(threads, size)));
   for (const int threads : {1, 2})
     for (const int size : {48, 20})
       add(fmt::format("lammps_{}_{}t", size, threads), [=](const KernelRound& r) {
+        const KernelSample* own = step_of(r, "published", threads);
         // Ranks that wait spin. With others on the machine two of them take many times as long as
         // one, which says nothing of LAMMPS.
-        const double cost = cost_in(r, lammps_key(threads, size));
-        return std::min(cost, cost_in(r, lammps_key(1, size))) /
-               cost_in(r, springs_key(threads, size));
+        const double cost =
+            std::min(cost_in(r, lammps_key(threads, size)), cost_in(r, lammps_key(1, size)));
+        return own ? cost / own->cost : meshes::unknown;
       });
-  for (const int size : {48, 20})
-    add(fmt::format("edge_list_over_lammps_{}", size),
-        over(edge_list_key(size), lammps_key(1, size)));
-  for (const int size : {48, 20}) {
-    add(fmt::format("roofline_{}_1t", size),
-        [size](const KernelRound& r) { return roofline_fraction(r, springs_key(1, size)); });
-  }
-  for (const int size : {20, 48}) {
-    add(fmt::format("threads_{}", size), [size](const KernelRound& r) {
-      return cost_in(r, springs_key(1, size), true) / cost_in(r, springs_key(2, size), true);
+  for (const char* model : {"published", "network"})
+    add(fmt::format("threads_{}", model), [=](const KernelRound& r) {
+      const KernelSample *one = step_of(r, model, 1), *two = step_of(r, model, 2);
+      return one && two ? one->wall_cost / two->wall_cost : meshes::unknown;
     });
-  }
   return result;
 }
 

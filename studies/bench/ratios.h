@@ -7,17 +7,15 @@
 
 namespace fingertip::studies::inline bench {
 
-/// {"multiply_adds_per_second": {ISA: rate}, "operations_per_second": {ISA: rate} (multiplications
-/// and additions in turns), "bandwidth_L2", "bandwidth_DRAM" [B/s],
-/// "cache_L2", "cache_L3" [B]}, medians.
+/// {"operations_per_second": {ISA: rate} (multiplications and additions in turns), "bandwidth_L2",
+/// "bandwidth_DRAM" [B/s], "cache_L2", "cache_L3" [B]}, medians.
 nlohmann::ordered_json probes_of(const KernelRounds& rounds);
 
 /// Entries `kernels` (and `peers`) of the contract: medians over the rounds. Beyond the contract
 /// each has `operations_per_spring` (null where not counted), `roofline_fraction`: these over what
-/// the same instruction set does at best in that precision (multiply-adds for the spring engine,
-/// whose operations in multiply pipes are counted, operations of all kinds for the others), over
-/// the time taken; and `rounds`. At best is the probe's or any such kernel's rate in the same
-/// round, whichever is higher: a fraction is at most 1, and 1 has a `remark`.
+/// the same instruction set does at best in that precision, over the time taken; and `rounds`. At
+/// best is the probe's or any such kernel's rate in the same round, whichever is higher: a fraction
+/// is at most 1, and 1 has a `remark`.
 nlohmann::ordered_json kernels_of(const KernelRounds& rounds, bool peers);
 
 /// Entries `parts`: what the parts of a time step cost, the dearest first: `part`, `scaled_masses`,

@@ -2,8 +2,7 @@
 // calls it several times in turn with its peers and takes medians of ratios. Prints what Google
 // Benchmark prints; its options (--benchmark_out=FILE ...) hold.
 //
-//   fingertip-kernels [--widest 2|4|8] [--threads N] [--sizes N,N,...] [--per-radius N] [--seconds
-//   S]
+//   fingertip-kernels [--widest 2|4|8] [--threads N] [--per-radius N] [--seconds S]
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -11,13 +10,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <sstream>
 #include <string>
 
+#include "arithmetic_rate.h"
 #include "benchmarks.h"
 #include "lattice/kernels/by_width.h"
 #include "lattice/kernels/kernel.h"
-#include "multiply_rate.h"
 #include "probes.h"
 
 namespace kernel_benchmarks {
@@ -33,22 +31,16 @@ std::string full_name(const std::string& name, int width, const std::string& pre
 }
 
 void register_probes(const Scope& scope) {
-  const auto rate = [&](const std::string& name, int width, double (*measure)(int)) {
-    benchmark::RegisterBenchmark(full_name(name, width, "float64", 1, 0).c_str(),
-                                 [=](benchmark::State& state) {
+  for (int width = 2; width <= scope.widest; width *= 2)
+    benchmark::RegisterBenchmark(full_name("arithmetic", width, "float64", 1, 0).c_str(),
+                                 [width](benchmark::State& state) {
                                    double best = 0.0;
-                                   for (auto _ : state) best = std::max(best, measure(width));
+                                   for (auto _ : state)
+                                     best = std::max(best, kernel_probes::arithmetic_rate(width));
                                    state.counters["rate"] = best;
                                  })
         ->MinTime(scope.seconds)
         ->UseRealTime();
-  };
-  for (int width = 2; width <= scope.widest; width *= 2) {
-    rate("multiply-add", width, [](int w) {
-      return spring_peers::multiply_rate(w, fingertip::lattice::springs::Precision::float64);
-    });
-    rate("arithmetic", width, spring_peers::arithmetic_rate);
-  }
   const auto bandwidth = [&](const std::string& name, std::size_t bytes, std::size_t cache) {
     benchmark::RegisterBenchmark(full_name(name, 2, "float64", 1, 0).c_str(),
                                  [bytes, cache](benchmark::State& state) {
@@ -96,16 +88,13 @@ int main(int argc, char** argv) {
   scope.threads = std::stoi(option(argc, argv, "--threads", "1"));
   scope.per_radius = std::stoi(option(argc, argv, "--per-radius", "12"));
   scope.seconds = std::stod(option(argc, argv, "--seconds", "0.1"));
-  std::istringstream sizes(option(argc, argv, "--sizes", "20,48"));
-  for (std::string size; std::getline(sizes, size, ',');) scope.sizes.push_back(std::stoi(size));
   benchmark::Initialize(&argc, argv);
   if (scope.widest > able || benchmark::ReportUnrecognizedArguments(argc, argv)) {
     std::fprintf(stderr, "fingertip-kernels: this processor has registers of %d doubles\n", able);
     return 2;
   }
   kernel_benchmarks::register_probes(scope);
-  kernel_benchmarks::register_parts(scope);  // ahead of the springs' huge pages: touched_bytes()
-  kernel_benchmarks::register_springs(scope);
+  kernel_benchmarks::register_parts(scope);
   kernel_benchmarks::register_tips(scope);
   benchmark::RunSpecifiedBenchmarks();
 }

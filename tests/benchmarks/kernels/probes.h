@@ -1,5 +1,4 @@
-/// What this processor's memory can do at best, for rooflines. (Its multiply-adds: multiply_rate.h
-/// of tests/benchmarks/springs.)
+/// What this processor's memory can do at best, for rooflines.
 #pragma once
 
 #include <cstddef>

@@ -14,7 +14,7 @@ namespace {
 ordered_json run(int number) {
   return {{"schema", 1},
           {"number", number},
-          {"kernels", {{{"name", "springs"}, {"rounds", {1.0, 2.0}}}}},
+          {"kernels", {{{"name", "network_step"}, {"rounds", {1.0, 2.0}}}}},
           {"peers", ordered_json::array()},
           {"ratio_rounds", {{"threads_20", {1.0}}}}};
 }

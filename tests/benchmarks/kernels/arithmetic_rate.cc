@@ -1,10 +1,10 @@
-#include "multiply_rate.h"
+#include "arithmetic_rate.h"
 
 #include <algorithm>
 #include <array>
 #include <ctime>
 
-namespace spring_peers {
+namespace kernel_probes {
 
 namespace {
 
@@ -17,47 +17,27 @@ constexpr int rounds = 4000;
 // clang-format off
 #define FINGERTIP_FIRST(op, r) op(r, 0) op(r, 1) op(r, 2) op(r, 3) op(r, 4) op(r, 5) op(r, 6) op(r, 7)
 #define FINGERTIP_SECOND(op, r) op(r, 8) op(r, 9) op(r, 10) op(r, 11) op(r, 12) op(r, 13) op(r, 14) op(r, 15)
-#define FINGERTIP_ALL(op, r) FINGERTIP_FIRST(op, r) FINGERTIP_SECOND(op, r)
 #define FINGERTIP_PAIRS(op, r) op(r, 0, 8) op(r, 1, 9) op(r, 2, 10) op(r, 3, 11) op(r, 4, 12) op(r, 5, 13) op(r, 6, 14) op(r, 7, 15)
 
 // Legacy instructions, two operands.
 #define FINGERTIP_ONE_2(r, n) "movapd %[one], %%" r #n "\n"
 #define FINGERTIP_ZERO_2(r, n) "movapd %[zero], %%" r #n "\n"
-#define FINGERTIP_MULTIPLY_2(r, n) "mulpd %%" r #n ", %%" r #n "\n"
 #define FINGERTIP_MIX_2(r, m, n) "mulpd %%" r #m ", %%" r #m "\n" "addpd %%" r #n ", %%" r #n "\n"
 // AVX, three.
 #define FINGERTIP_ONE(r, n) "vbroadcastsd %[one], %%" r #n "\n"
 #define FINGERTIP_ZERO(r, n) "vbroadcastsd %[zero], %%" r #n "\n"
-#define FINGERTIP_HALF(r, n) "vbroadcastsd %[half], %%" r #n "\n"
-#define FINGERTIP_FUSED(r, n) "vfmadd213pd %%" r #n ", %%" r #n ", %%" r #n "\n"
 #define FINGERTIP_MIX(r, m, n) "vmulpd %%" r #m ", %%" r #m ", %%" r #m "\n" "vaddpd %%" r #n ", %%" r #n ", %%" r #n "\n"
 
 #define FINGERTIP_RUN(start, body, end)                                                          \
   int left = rounds;                                                                             \
   asm volatile(start "1:\n" body "dec %[left]\n" "jnz 1b\n" end                                  \
-               : [left] "+r"(left) : [one] "m"(one), [zero] "m"(zero), [half] "m"(half)          \
+               : [left] "+r"(left) : [one] "m"(one), [zero] "m"(zero)                             \
                : "cc", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7", "xmm8",   \
                  "xmm9", "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15")
 // clang-format on
 
-alignas(16) constexpr double one[] = {1.0, 1.0};     // 1 x 1 stays 1
-alignas(16) constexpr double zero[] = {0.0, 0.0};    // 0 + 0 stays 0
-alignas(16) constexpr double half[] = {-0.5, -0.5};  // x x + x tends to -1/round
-
-void multiply_sse2() {
-  FINGERTIP_RUN(FINGERTIP_ALL(FINGERTIP_ONE_2, "xmm"), FINGERTIP_ALL(FINGERTIP_MULTIPLY_2, "xmm"),
-                "");
-}
-
-[[gnu::target("avx2,fma")]] void multiply_avx2() {
-  FINGERTIP_RUN(FINGERTIP_ALL(FINGERTIP_HALF, "ymm"), FINGERTIP_ALL(FINGERTIP_FUSED, "ymm"),
-                "vzeroupper\n");
-}
-
-[[gnu::target("avx512f")]] void multiply_avx512() {
-  FINGERTIP_RUN(FINGERTIP_ALL(FINGERTIP_HALF, "zmm"), FINGERTIP_ALL(FINGERTIP_FUSED, "zmm"),
-                "vzeroupper\n");
-}
+alignas(16) constexpr double one[] = {1.0, 1.0};   // 1 x 1 stays 1
+alignas(16) constexpr double zero[] = {0.0, 0.0};  // 0 + 0 stays 0
 
 // As many multiplications as additions, in registers of their own.
 void mix_sse2() {
@@ -98,16 +78,8 @@ double rate_of(void (*run)(), int lanes) {
 
 }  // namespace
 
-double multiply_rate(int width, fingertip::lattice::springs::Precision precision) {
-  const bool half = precision == fingertip::lattice::springs::Precision::float32;
-  return rate_of(width == 8   ? multiply_avx512
-                 : width == 4 ? multiply_avx2
-                              : multiply_sse2,
-                 half ? 2 * width : width);
-}
-
 double arithmetic_rate(int width) {
   return rate_of(width == 8 ? mix_avx512 : width == 4 ? mix_avx2 : mix_sse2, width);
 }
 
-}  // namespace spring_peers
+}  // namespace kernel_probes
