@@ -1,7 +1,6 @@
 #include "calibration/contact_laws/pressure_law.h"
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <numeric>
 
 #include "calibration/statistics/non_negative.h"
+#include "meshes/base/dense.h"
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 #include "meshes/cells/surface_points.h"
@@ -270,9 +270,8 @@ PressurePolynomial fitted_polynomial(const ForceCurve& curve, const Overlaps& ov
   check_growth(curve);
   const Samples samples(curve, overlaps);
   const std::vector<PressurePolynomial> powers{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-  const VectorXd free = shares(samples, powers)
-                            .colPivHouseholderQr()
-                            .solve(VectorXd::Ones(Eigen::Index(curve.force.size())));
+  const VectorXd free = meshes::least_squares(shares(samples, powers),
+                                              VectorXd::Ones(Eigen::Index(curve.force.size())));
   const PressurePolynomial law{free[0], free[1], free[2]};
   if (law.grows_to(curve.indentation.back())) return law;
   const VectorXd size = sized(samples, powers);

@@ -108,9 +108,4 @@ const ParameterKind& kind(MaterialParameter parameter) {
   return kinds[std::size_t(parameter)];
 }
 
-Eigen::RowVector2d lambda_slopes(double e, double g) {
-  const double denominator = (3.0 * g - e) * (3.0 * g - e);
-  return Eigen::RowVector2d(g * g, 4.0 * e * g - e * e - 6.0 * g * g) / denominator;
-}
-
 }  // namespace fingertip::calibration::inline material

@@ -112,7 +112,4 @@ meshes::Rubber with_moduli(meshes::Rubber rubber, const std::vector<MaterialPara
 /// dimensionless.
 Eigen::Vector2d moduli_slopes(MaterialParameter parameter, double poissons_ratio);
 
-/// lambda = G (E - 2G)/(3G - E) by E and by G, dimensionless.
-Eigen::RowVector2d lambda_slopes(double youngs_modulus, double shear_modulus);
-
 }  // namespace fingertip::calibration::inline material

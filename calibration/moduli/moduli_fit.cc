@@ -2,10 +2,10 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/base/dense.h"
 #include "meshes/base/errors.h"
 #include "meshes/base/files.h"
 
@@ -63,7 +63,7 @@ bool is_least(const CompromiseCost& cost, const Eigen::Vector2d& x) {
   const double* at = x.data();
   double* by = slopes.data();
   cost.Evaluate(&at, residuals.data(), &by);
-  const Eigen::VectorXd along = slopes * slopes.colPivHouseholderQr().solve(residuals);
+  const Eigen::VectorXd along = slopes * meshes::least_squares(slopes, residuals);
   return residuals.cwiseAbs().maxCoeff() < reached || along.norm() <= stationary * residuals.norm();
 }
 

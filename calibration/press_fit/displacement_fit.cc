@@ -1,7 +1,6 @@
 #include "calibration/press_fit/displacement_fit.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "calibration/files/words.h"
 #include "calibration/statistics/fit_statistics.h"
+#include "meshes/base/dense.h"
 
 namespace fingertip::calibration::inline press_fit {
 
@@ -54,14 +54,15 @@ struct RatioErrors {
 /// are independent, value by value, so that hundreds of values cost next to nothing at any sizes.
 class NoiseAndMisfit {
  public:
-  explicit NoiseAndMisfit(const MatrixXd& covariance) : eigen_(covariance) {
-    variance_ = eigen_.eigenvalues().array().max(0.0);
+  explicit NoiseAndMisfit(const MatrixXd& covariance)
+      : eigen_(meshes::symmetric_eigen(covariance)) {
+    variance_ = eigen_.values.array().max(0.0);
   }
 
   /// `freed`: a column per linear parameter without a prior. `all`: not the evidence alone.
   RatioErrors of(const VectorXd& residuals, const MatrixXd& freed, bool all) const {
-    const VectorXd seen = eigen_.eigenvectors().transpose() * residuals;
-    const MatrixXd columns = eigen_.eigenvectors().transpose() * freed;
+    const VectorXd seen = eigen_.vectors.transpose() * residuals;
+    const MatrixXd columns = eigen_.vectors.transpose() * freed;
     const double rough = std::log(std::sqrt(seen.squaredNorm() / double(seen.size())));
     std::vector<Choice> choices;
     double best = -std::numeric_limits<double>::infinity(), best_without = best;
@@ -145,7 +146,7 @@ class NoiseAndMisfit {
     errors.noise = point(noises, 0.5);
     errors.size = point(sizes, 0.5);
     errors.size_upper = point(sizes, 0.95);
-    errors.part = eigen_.eigenvectors() * part;
+    errors.part = eigen_.vectors * part;
     errors.mean = errors.lower = errors.upper = VectorXd::Zero(columns.cols());
     for (Index j = 0; j < columns.cols(); ++j) {
       std::vector<double> means, deviations;
@@ -160,7 +161,7 @@ class NoiseAndMisfit {
     return errors;
   }
 
-  Eigen::SelfAdjointEigenSolver<MatrixXd> eigen_;
+  meshes::EigenPairs eigen_;
   Eigen::ArrayXd variance_;  ///< of the misfit's values in the eigenvectors, at size 1
 };
 

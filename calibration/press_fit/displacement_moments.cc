@@ -1,10 +1,10 @@
 #include "calibration/press_fit/displacement_moments.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "meshes/base/dense.h"
 #include "meshes/base/errors.h"
 
 namespace fingertip::calibration::inline press_fit {
@@ -51,9 +51,8 @@ MatrixXd monomial_columns(const MatrixXd& at, int degree) {
 
 /// Orthonormal columns of the same span.
 MatrixXd orthonormal_columns(const MatrixXd& columns) {
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
-  qr.setThreshold(dependent);
-  return MatrixXd(qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank()));
+  const meshes::OrthonormalBasis basis = meshes::orthonormal_basis(columns, dependent);
+  return basis.columns.leftCols(basis.rank);
 }
 
 /// The largest degree whose functions are at most half as many as the points.
@@ -91,10 +90,8 @@ MatrixXd rigid_coordinates(const MatrixXd& scalar, const MatrixXd& at) {
 
 /// Orthonormal columns of everything orthogonal to `columns`.
 MatrixXd complement_of(const MatrixXd& columns) {
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
-  qr.setThreshold(dependent);
-  const MatrixXd whole = qr.householderQ() * MatrixXd::Identity(columns.rows(), columns.rows());
-  return whole.rightCols(columns.rows() - qr.rank());
+  const meshes::OrthonormalBasis basis = meshes::orthonormal_basis(columns, dependent);
+  return basis.columns.rightCols(columns.rows() - basis.rank);
 }
 
 MatrixXd true_places(const std::vector<Vector3>& places, const std::vector<std::size_t>& points) {

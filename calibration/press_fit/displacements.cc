@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "meshes/base/dense.h"
+
 namespace fingertip::calibration::inline press_fit {
 
 using Eigen::Index;
@@ -31,7 +33,7 @@ double rms_length(const Matrix3Xd& vectors) {
 }
 
 bool on_a_line(const Matrix3Xd& points) {
-  const auto sizes = Eigen::JacobiSVD<Matrix3Xd>(centred(points)).singularValues();
+  const Eigen::VectorXd sizes = meshes::singular_values(centred(points).transpose()).values;
   return !(sizes(1) > least_width * sizes(0));
 }
 

@@ -208,7 +208,7 @@ ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
   const Index count = residuals.size();
   const auto eigen = decomposed_covariance(known.block(first, first, count, count),
                                            VectorXd::Map(sigma.data(), count));
-  return residual_structure(VectorXd(eigen.operatorInverseSqrt() * residuals));
+  return residual_structure(VectorXd(eigen.inverse_root() * residuals));
 }
 
 std::size_t rubber_parameters(const CurveFit& fit) {

@@ -91,12 +91,12 @@ void check(const PressSetup& setup, const std::vector<MaterialParameter>& parame
   if (!found.empty()) throw meshes::InvalidInput(found);
 }
 
-/// Forces at the samples and their slopes by the press's parameters.
-CurveSlopes pressed(const PressSetup& setup, const std::vector<PressParameter>& parameters,
+/// Forces at the samples and their slopes in these directions.
+CurveSlopes pressed(const PressSetup& setup, const lattice::PressDirections& directions,
                     const std::function<bool()>& go_on) {
   lattice::StaticObserver observer;
   if (go_on) observer = [&](const lattice::StaticOutcome&, double) { return go_on(); };
-  const auto press = lattice::run_static_press_with_slopes(setup, parameters, observer);
+  const auto press = lattice::run_static_press_with_slopes(setup, directions, observer);
   const auto& samples = press.outcome.response.samples();
   CurveSlopes result;
   result.value.resize(Eigen::Index(samples.size()));
@@ -124,7 +124,7 @@ LatticeForwardModel::LatticeForwardModel(PressSetup setup,
                                          std::function<bool()> go_on)
     : setup_(std::move(setup)), parameters_(std::move(parameters)), go_on_(std::move(go_on)) {
   check(setup_, parameters_);
-  if (by_moduli()) press_parameters_ = lattice::lame_slopes(setup_.lattice).parameters;
+  if (by_moduli()) press_parameters_ = lattice::lame_directions(setup_.lattice).parameters;
   for (const MaterialParameter parameter : parameters_)
     if (const auto same = press_parameter(parameter)) press_parameters_.push_back(*same);
 }
@@ -150,9 +150,8 @@ PressSetup LatticeForwardModel::setup_with(const Eigen::VectorXd& parameters) co
 Eigen::MatrixXd LatticeForwardModel::chain(const PressSetup& setup) const {
   Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(Eigen::Index(press_parameters_.size()),
                                                 Eigen::Index(parameters_.size()));
-  const auto by_lame = lattice::lame_slopes(setup.lattice).slopes;
-  const Eigen::RowVector2d lambda =
-      lambda_slopes(setup.rubber.youngs_modulus, setup.rubber.shear_modulus);
+  const Eigen::MatrixXd by_lame = lattice::lame_directions(setup.lattice).rates;
+  const Eigen::RowVector2d lambda = setup.rubber.lambda_slopes();
   for (Eigen::Index j = 0; j < chain.cols(); ++j) {
     const MaterialParameter parameter = parameters_[std::size_t(j)];
     if (const auto same = press_parameter(parameter)) {
@@ -166,14 +165,9 @@ Eigen::MatrixXd LatticeForwardModel::chain(const PressSetup& setup) const {
   return chain;
 }
 
-CurveSlopes LatticeForwardModel::press(const PressSetup& setup) const {
-  CurveSlopes result = pressed(setup, press_parameters_, go_on_);
-  result.jacobian *= chain(setup);
-  return result;
-}
-
 CurveSlopes LatticeForwardModel::evaluate(const Eigen::VectorXd& parameters) {
-  return press(setup_with(parameters));
+  const PressSetup setup = setup_with(parameters);
+  return pressed(setup, {press_parameters_, chain(setup)}, go_on_);
 }
 
 CurveSlopes LatticeByRatio::evaluate(const Eigen::VectorXd& poissons_ratio) {

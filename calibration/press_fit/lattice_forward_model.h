@@ -40,7 +40,6 @@ class LatticeForwardModel final : public ForwardModel {
   bool by_moduli() const;
   /// d(press parameters)/d(parameters), rows as in press_parameters_.
   Eigen::MatrixXd chain(const lattice::PressSetup& setup) const;
-  CurveSlopes press(const lattice::PressSetup& setup) const;
 
   lattice::PressSetup setup_;
   std::vector<MaterialParameter> parameters_;

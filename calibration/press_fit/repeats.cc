@@ -1,12 +1,11 @@
 #include "calibration/press_fit/repeats.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "calibration/statistics/fit_statistics.h"
+#include "meshes/base/dense.h"
 #include "meshes/tables/interpolation.h"
 
 namespace fingertip::calibration::inline press_fit {
@@ -58,10 +57,9 @@ VectorXd fit_factors(Repeats& repeats, const std::vector<Curve>& curves, const C
     places.push_back(parameter);
   }
   const MatrixXd used_columns = columns.leftCols(used);
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(used_columns);
-  const VectorXd target = fit.whitening * residuals, found = qr.solve(target);
-  const MatrixXd covariance =
-      (used_columns.transpose() * used_columns).completeOrthogonalDecomposition().pseudoInverse();
+  const VectorXd target = fit.whitening * residuals,
+                 found = meshes::least_squares(used_columns, target);
+  const MatrixXd covariance = meshes::pseudo_inverse(used_columns.transpose() * used_columns);
   const Index freedom = std::max<Index>(1, values - used);
   const double variance = (target - used_columns * found).squaredNorm() / double(freedom);
   // Where sigma was given residuals should be 1; of larger ones the data speak themselves.

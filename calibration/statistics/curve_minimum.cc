@@ -2,7 +2,6 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "calibration/statistics/fit_coordinates.h"
+#include "meshes/base/dense.h"
 #include "meshes/base/errors.h"
 
 namespace fingertip::calibration::inline statistics {
@@ -203,13 +203,11 @@ struct GaussNewton {
       Eigen::MatrixXd seen = at.jacobian;
       for (Index i = 0; i < x.size(); ++i)
         if (held[std::size_t(i)]) seen.col(i).setZero();
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
-      qr.setThreshold(1e-12);
-      qr.compute(seen);
       VectorXd rest = VectorXd::Zero(x.size());
       for (Index i = 0; i < x.size(); ++i)
         if (held[std::size_t(i)]) rest(i) = end(i) - x(i);
-      const VectorXd step = -qr.solve(at.residuals + at.jacobian * rest);
+      const VectorXd step =
+          -meshes::shortest_least_squares(seen, at.residuals + at.jacobian * rest, 1e-12);
       inside = true;
       for (Index i = 0; i < x.size(); ++i) {
         if (held[std::size_t(i)]) continue;

@@ -159,10 +159,9 @@ void CurveResiduals::weigh_priors(double deviation) {
   forget_least();
 }
 
-Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposed_covariance(
-    Eigen::MatrixXd model, const Eigen::VectorXd& deviations) {
+meshes::EigenPairs decomposed_covariance(Eigen::MatrixXd model, const Eigen::VectorXd& deviations) {
   model.diagonal() += deviations.cwiseAbs2();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(model);
+  return meshes::symmetric_eigen(model);
 }
 
 /// The symmetric root, which leaves a residual as much at its own place as there can be: an outlier
@@ -177,8 +176,8 @@ void CurveResiduals::whiten(const Eigen::VectorXd& values, const Eigen::VectorXd
   colouring_ = deviations.asDiagonal();
   if (!has_sigma_ || options_->model_covariance.size() == 0) return;
   const auto eigen = decomposed_covariance(options_->model_covariance, deviations);
-  whitening_ = eigen.operatorInverseSqrt();
-  colouring_ = eigen.operatorSqrt();
+  whitening_ = eigen.inverse_root();
+  colouring_ = eigen.root();
 }
 
 double CurveResiduals::loss_of_standard_error(double loss) const {

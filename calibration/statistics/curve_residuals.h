@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <functional>
 #include <limits>
 #include <list>
@@ -12,6 +11,7 @@
 #include "calibration/statistics/curve.h"
 #include "calibration/statistics/fit_options.h"
 #include "calibration/statistics/forward_model.h"
+#include "meshes/base/dense.h"
 
 namespace fingertip::calibration::inline statistics {
 
@@ -30,8 +30,7 @@ void check_curve_fit(const std::vector<Curve>& curves, const CurveFitOptions& op
 
 /// Of what values scatter by [their unit]: by themselves (`deviations`) and together, by errors of
 /// the model whose covariance is known; its roots whiten and colour.
-Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposed_covariance(
-    Eigen::MatrixXd model, const Eigen::VectorXd& deviations);
+meshes::EigenPairs decomposed_covariance(Eigen::MatrixXd model, const Eigen::VectorXd& deviations);
 
 /// Keeps references. Every answer is remembered: a search comes back to points where it has been,
 /// and a model may take minutes.

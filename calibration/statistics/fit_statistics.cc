@@ -1,6 +1,5 @@
 #include "calibration/statistics/fit_statistics.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -9,6 +8,7 @@
 #include <limits>
 
 #include "calibration/files/words.h"
+#include "meshes/base/dense.h"
 
 namespace fingertip::calibration::inline statistics {
 
@@ -161,9 +161,9 @@ double chi_square_above(double chi_square, int degrees_of_freedom) {
 
 Sensitivity::Sensitivity(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& sizes)
     : sizes_(sizes), values_(Eigen::VectorXd::Zero(sizes.size())) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian * sizes.asDiagonal(), Eigen::ComputeFullV);
-  values_.head(svd.singularValues().size()) = svd.singularValues();
-  directions_ = svd.matrixV();
+  const meshes::SingularValues svd = meshes::singular_values(jacobian * sizes.asDiagonal());
+  values_.head(svd.values.size()) = svd.values;
+  directions_ = svd.right;
 }
 
 Eigen::MatrixXd Sensitivity::covariance() const {

@@ -1,12 +1,12 @@
 #include "calibration/statistics/score_tests.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 
 #include "calibration/statistics/fit_statistics.h"
+#include "meshes/base/dense.h"
 #include "meshes/base/errors.h"
 #include "meshes/rubber/relaxation.h"
 
@@ -29,8 +29,7 @@ T without_columns(const T& vector, const MatrixXd& matrix) {
   MatrixXd scaled = matrix;
   for (Index j = 0; j < scaled.cols(); ++j)
     if (const double norm = scaled.col(j).norm(); norm > 0.0) scaled.col(j) /= norm;
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(scaled);
-  return vector - scaled * decomposition.solve(vector);
+  return vector - scaled * meshes::shortest_least_squares(scaled, vector);
 }
 
 double probability_of(double decrease, const CurveFit& fit) {

@@ -1,7 +1,6 @@
 #include "calibration/statistics/value_errors.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <random>
 
 #include "calibration/statistics/fit_statistics.h"
+#include "meshes/base/dense.h"
 #include "meshes/base/errors.h"
 
 namespace fingertip::calibration::inline statistics {
@@ -54,11 +54,11 @@ class MixedModel {
     columns_ = weight.asDiagonal() * columns_;
     known_ = ArrayXd::Zero(values);
     if (fit.model_covariance.size() > 0) {
-      const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
-          weight.asDiagonal() * fit.model_covariance * weight.asDiagonal());
-      known_ = eigen.eigenvalues().array().max(0.0);
-      residuals_ = eigen.eigenvectors().transpose() * residuals_;
-      columns_ = eigen.eigenvectors().transpose() * columns_;
+      const meshes::EigenPairs eigen =
+          meshes::symmetric_eigen(weight.asDiagonal() * fit.model_covariance * weight.asDiagonal());
+      known_ = eigen.values.array().max(0.0);
+      residuals_ = eigen.vectors.transpose() * residuals_;
+      columns_ = eigen.vectors.transpose() * columns_;
     }
     alike_ = (known_ == 0.0).all();
     units_ = VectorXd::Ones(columns);
@@ -457,11 +457,11 @@ MatrixXd smooth_columns(const VectorXd& u, double length) {
       MatrixXd::NullaryExpr(nodes, nodes, [&](Index i, Index j) { return kernel(at(i), at(j)); });
   const MatrixXd across =
       MatrixXd::NullaryExpr(u.size(), nodes, [&](Index i, Index j) { return kernel(u(i), at(j)); });
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(own);
-  const double least = 1e-5 * eigen.eigenvalues()(nodes - 1);
-  const Index kept = (eigen.eigenvalues().array() > least).count();
-  return across * eigen.eigenvectors().rightCols(kept) *
-         eigen.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  const meshes::EigenPairs eigen = meshes::symmetric_eigen(own);
+  const double least = 1e-5 * eigen.values(nodes - 1);
+  const Index kept = (eigen.values.array() > least).count();
+  return across * eigen.vectors.rightCols(kept) *
+         eigen.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
 }  // namespace fingertip::calibration::inline statistics

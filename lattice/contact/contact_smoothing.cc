@@ -1,12 +1,13 @@
 #include "lattice/contact/contact_smoothing.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <unordered_map>
+
+#include "meshes/base/dense.h"
 
 namespace fingertip::lattice::inline contact {
 
@@ -260,8 +261,7 @@ class Restoring {
     State now = at(factors, wanted);
     for (int n = 0; n < most && now.lacking.norm() > round_off * scale; ++n) {
       // Of normals that go through one point, a ball's, nothing turns: rank 3.
-      Eigen::CompleteOrthogonalDecomposition<Matrix6> solver;
-      const Vector6 step = solver.setThreshold(1e-10).compute(now.response).solve(now.lacking);
+      const Vector6 step = meshes::shortest_least_squares(now.response, now.lacking, 1e-10);
       State next = at(factors + step, wanted);
       double share = 1.0;
       for (int i = 0; i < most_halvings && !(next.lacking.norm() < now.lacking.norm()); ++i)

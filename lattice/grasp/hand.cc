@@ -1,6 +1,5 @@
 #include "lattice/grasp/hand.h"
 
-#include <Eigen/Eigenvalues>
 #include <set>
 
 #include "lattice/forces/energy.h"
@@ -71,9 +70,7 @@ double Hand::find_coupling() const {
       touching += rigid_inertia(model.mass[corner], place - body.centre);
     }
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(touching, own,
-                                                                 Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().maxCoeff();
+  return largest_ratio(touching, own);
 }
 
 Vector3 Hand::momentum() const {

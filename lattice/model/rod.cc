@@ -1,5 +1,6 @@
 #include "lattice/model/rod.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
@@ -35,6 +36,12 @@ RodBody hand_body(const meshes::Geometry& geometry, const RodSettings& settings)
 }
 
 }  // namespace
+
+double largest_ratio(const Matrix6& form, const Matrix6& inertia) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6>(form, inertia, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
 
 Matrix6 rigid_inertia(double mass, const Vector3& arm, const Matrix3d& inertia) {
   Matrix6 matrix;

@@ -17,6 +17,10 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 Matrix6 rigid_inertia(double mass, const meshes::Vector3& arm,
                       const Eigen::Matrix3d& inertia = Eigen::Matrix3d::Zero());
 
+/// Of two forms of a rigid body's motion about the same point, whichever it is, such as the kinetic
+/// energies of rubber and hand: the largest ratio over all motions. That of masses is one motion's.
+double largest_ratio(const Matrix6& form, const Matrix6& inertia);
+
 /// Acceleration of a point at `arm` from another that accelerates so, with angular acceleration, of
 /// a rigid body at rest: a + w x arm.
 Eigen::Matrix<double, 3, 6> rigid_motion(const meshes::Vector3& arm);

@@ -106,11 +106,6 @@ LoopMotion fastest(const MatrixXd& period_map, double period) {
 
 }  // namespace
 
-double inertia_ratio(const Matrix6& rubber, const Matrix6& hand) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6>(rubber, hand, Eigen::EigenvaluesOnly)
-      .eigenvalues()[5];
-}
-
 double harmless_ratio(const PidSettings& servo, double latency, double retardation_time) {
   const double omega = 2.0 * std::numbers::pi * servo.natural_frequency;
   // 8/9 and 4 for a pure delay; the derivative's filter takes some of either.

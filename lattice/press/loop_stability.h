@@ -6,10 +6,6 @@
 
 namespace fingertip::lattice::inline press {
 
-/// The largest ratio, over all motions as one rigid body, of the rubber's kinetic energy to the
-/// hand's; both 6 x 6 about the same point, whichever it is. That of their masses is one motion's.
-double inertia_ratio(const Matrix6& rubber, const Matrix6& hand);
-
 /// The fastest motion exp(rate t) of a loop.
 struct LoopMotion {
   double rate = 0.0;       ///< growth [1/s]; negative: all motions die away
@@ -23,7 +19,7 @@ struct LoopMotion {
 LoopMotion loop_motion(const Matrix6& hand, const HeldVibrations& rubber, double retardation_time,
                        const PidSettings& servo, double latency);
 
-/// inertia_ratio r up to which rubber of whatever stiffness holds still. The tip's wrench is fed
+/// largest_ratio r up to which rubber of whatever stiffness holds still. The tip's wrench is fed
 /// forward a delay D late, beside gains for the bare hand (poles at -w):
 ///   stiff rubber, F = -r x'', D = period + latency: (s + w)³ + r D s⁴ = 0, which is unstable from
 ///   r D w = 8/9 on, at sqrt(3) w;

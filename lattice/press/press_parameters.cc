@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "lattice/kernels/stencil.h"
 #include "lattice/model/formulation.h"
@@ -14,31 +15,40 @@ namespace fingertip::lattice::inline press {
 
 namespace {
 
-/// What one unit of a parameter adds to the quantities that a body is made of.
+/// What one unit of way in a direction adds to the quantities that a body is made of.
 struct Rates {
   SpringConstants constants;         ///< of the springs, or of a cubic law
   double shear = 0.0, lambda = 0.0;  ///< C44 or G; lambda of the network at finite strain
   double bond = 0.0, contact = 0.0;  ///< factors on ties
 };
 
-Rates rates_of(PressParameter parameter, const LatticeSettings& settings) {
-  Rates rates;
-  const double a = settings.spacing;
+void add(PressParameter parameter, double rate, double a, Rates& rates) {
+  SpringConstants& constants = rates.constants;
   switch (parameter) {
-    case PressParameter::k1: rates.constants.k1 = 1.0; break;
-    case PressParameter::k2: rates.constants.k2 = 1.0; break;
-    case PressParameter::k3: rates.constants.k3 = 1.0; break;
-    case PressParameter::kappa: rates.constants.kappa = 1.0; break;
+    case PressParameter::k1: constants.k1 += rate; break;
+    case PressParameter::k2: constants.k2 += rate; break;
+    case PressParameter::k3: constants.k3 += rate; break;
+    case PressParameter::kappa: constants.kappa += rate; break;
     // The network at small strain is hookean with k1 = k2 = a G, k3 = 0, kappa = lambda - G.
-    case PressParameter::shear_modulus: rates.constants = {a, a, 0.0, -1.0}; break;
-    case PressParameter::lambda:
-      rates.constants.kappa = 1.0;
-      rates.lambda = 1.0;
+    case PressParameter::shear_modulus:
+      constants.k1 += a * rate;
+      constants.k2 += a * rate;
+      constants.kappa -= rate;
       break;
-    case PressParameter::bond: rates.bond = 1.0; break;
-    case PressParameter::contact: rates.contact = 1.0; break;
+    case PressParameter::lambda:
+      constants.kappa += rate;
+      rates.lambda += rate;
+      break;
+    case PressParameter::bond: rates.bond += rate; break;
+    case PressParameter::contact: rates.contact += rate; break;
   }
-  rates.shear = shear_stiffness(rates.constants, a);
+}
+
+Rates rates_of(const PressDirections& directions, Eigen::Index direction, double spacing) {
+  Rates rates;
+  for (std::size_t i = 0; i < directions.parameters.size(); ++i)
+    add(directions.parameters[i], directions.rates(Eigen::Index(i), direction), spacing, rates);
+  rates.shear = shear_stiffness(rates.constants, spacing);
   return rates;
 }
 
@@ -77,13 +87,19 @@ std::vector<Spring> unit_springs(const LatticeBody& body, const PressSetup& setu
   return springs;
 }
 
-std::vector<Spring> springs_slope(const LatticeBody& body, const PressSetup& setup,
-                                  PressParameter parameter) {
-  switch (parameter) {
-    case PressParameter::k1: return unit_springs(body, setup, parameter, axis);
-    case PressParameter::k2: return unit_springs(body, setup, parameter, face_diagonal);
-    case PressParameter::k3: return unit_springs(body, setup, parameter, body_diagonal);
-    default: return {};
+void add_springs(const LatticeBody& body, const PressSetup& setup,
+                 const PressDirections& directions, Eigen::Index direction,
+                 std::vector<Spring>& springs) {
+  using enum PressParameter;
+  constexpr std::pair<PressParameter, std::size_t> families[] = {
+      {k1, axis}, {k2, face_diagonal}, {k3, body_diagonal}};
+  for (std::size_t i = 0; i < directions.parameters.size(); ++i) {
+    const double rate = directions.rates(Eigen::Index(i), direction);
+    for (const auto& [parameter, family] : families) {
+      if (parameter != directions.parameters[i] || rate == 0.0) continue;
+      for (const Spring& spring : unit_springs(body, setup, parameter, family))
+        springs.push_back({spring.ends, rate * spring.stiffness});
+    }
   }
 }
 
@@ -105,19 +121,21 @@ std::vector<PressParameter> press_parameters(const LatticeSettings& settings) {
   return {};
 }
 
-LameSlopes lame_slopes(const LatticeSettings& settings) {
+PressDirections::PressDirections(std::vector<PressParameter> each)
+    : parameters(std::move(each)),
+      rates(Eigen::MatrixXd::Identity(Eigen::Index(parameters.size()),
+                                      Eigen::Index(parameters.size()))) {}
+
+PressDirections::PressDirections(std::vector<PressParameter> own, Eigen::MatrixXd along)
+    : parameters(std::move(own)), rates(std::move(along)) {}
+
+PressDirections lame_directions(const LatticeSettings& settings) {
   using enum PressParameter;
-  LameSlopes result;
   const double a = settings.spacing;
-  if (settings.model == ModelKind::network) {
-    result.parameters = {shear_modulus, lambda};
-    result.slopes = Eigen::Matrix2d::Identity();
-  } else if (settings.model == ModelKind::hookean) {
-    // k1 = k2 = a G, k3 = 0, kappa = lambda - G.
-    result.parameters = {k1, k2, kappa};
-    result.slopes = Eigen::Matrix<double, 3, 2>{{a, 0.0}, {a, 0.0}, {-1.0, 1.0}};
-  }
-  return result;
+  if (settings.model == ModelKind::network) return {{shear_modulus, lambda}};
+  if (settings.model != ModelKind::hookean) return {};
+  // k1 = k2 = a G, k3 = 0, kappa = lambda - G.
+  return {{k1, k2, kappa}, Eigen::MatrixXd{{a, 0.0}, {a, 0.0}, {-1.0, 1.0}}};
 }
 
 double value_of(PressParameter parameter, const PressSetup& setup) {
@@ -150,23 +168,25 @@ void set_value(PressParameter parameter, double value, PressSetup& setup) {
   }
 }
 
-LatticeBody body_slope(const LatticeBody& body, const PressSetup& setup, PressParameter parameter) {
+LatticeBody body_slope(const LatticeBody& body, const PressSetup& setup,
+                       const PressDirections& directions, Eigen::Index direction) {
   const std::vector<PressParameter> known = press_parameters(setup.lattice);
-  if (std::ranges::find(known, parameter) == known.end()) {
+  for (const PressParameter parameter : directions.parameters) {
+    if (std::ranges::find(known, parameter) != known.end()) continue;
     throw meshes::InvalidInput({"parameter", std::string(name(parameter)),
                                 "a press of the " + std::string(name(setup.lattice.model)) +
                                     " model has no derivative with respect to it",
                                 "ask for those of press_parameters"});
   }
   const Formulation formulation = formulation_for(setup.rubber, setup.lattice);
-  const Rates rates = rates_of(parameter, setup.lattice);
+  const Rates rates = rates_of(directions, direction, setup.lattice.spacing);
   const double shear = rates.shear / formulation.shear;  // fibres and ties are proportional to it
   LatticeBody slope = body;
   slope.law.material =
       material_slope(formulation, rates, setup.lattice.spacing, setup.rubber.energy);
   if (slope.law.none()) slope.cells.clear();
-  slope.springs =
-      formulation.central_springs ? springs_slope(body, setup, parameter) : std::vector<Spring>();
+  slope.springs.clear();
+  if (formulation.central_springs) add_springs(body, setup, directions, direction, slope.springs);
   scale(shear, slope.fibres);
   scale(shear + rates.bond / setup.lattice.ligament_stiffness, slope.bond);
   scale(shear + rates.contact / setup.lattice.contact_stiffness, slope.outer);

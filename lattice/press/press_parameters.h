@@ -41,13 +41,20 @@ constexpr auto names_of(PressParameter) {
 /// which snaps through where an equilibrium ends.
 std::vector<PressParameter> press_parameters(const LatticeSettings& settings);
 
-/// The constants of hookean by rule (lattice::hookean_constants) and those of the network, which
-/// follow from the rubber's moduli. Empty parameters: the model has none.
-struct LameSlopes {
+/// Directions in the space of the parameters, a column each.
+struct PressDirections {
   std::vector<PressParameter> parameters;
-  Eigen::MatrixX2d slopes;  ///< d(parameters)/d(G, lambda), a row per parameter
+  Eigen::MatrixXd rates;  ///< d(parameters)/d(way in a direction), a row per parameter
+
+  PressDirections() = default;
+  /// Along each of them by itself.
+  PressDirections(std::vector<PressParameter> each);
+  PressDirections(std::vector<PressParameter> parameters, Eigen::MatrixXd rates);
 };
-LameSlopes lame_slopes(const LatticeSettings& settings);
+
+/// Of G and lambda: the constants of hookean by rule (lattice::hookean_constants) and those of the
+/// network follow from the rubber's moduli. Empty: those of the model do not.
+PressDirections lame_directions(const LatticeSettings& settings);
 
 /// Value in a setup, in the parameter's unit.
 double value_of(PressParameter parameter, const PressSetup& setup);
@@ -55,12 +62,13 @@ double value_of(PressParameter parameter, const PressSetup& setup);
 /// Changes one parameter alone. With G or lambda, E = G (3 lambda + 2 G)/(lambda + G) follows.
 void set_value(PressParameter parameter, double value, PressSetup& setup);
 
-/// dE/dp at a held displacement is the energy of a body, too: of the one returned. Its particles
-/// and outer points are those of `body`, which is static_body of `setup` in any number of sectors;
-/// its stiffnesses are derivatives with respect to p, so forces come in N per unit of p. What does
-/// not depend on p is left out, save outer points, whose stiffness is then zero; springs that
-/// `body` does not have because p = 0 are there. Throws InvalidInput for a parameter that is not
-/// among press_parameters.
-LatticeBody body_slope(const LatticeBody& body, const PressSetup& setup, PressParameter parameter);
+/// dE/dp at a held displacement, where p goes in a direction, is the energy of a body, too: of the
+/// one returned. Its particles and outer points are those of `body`, which is static_body of
+/// `setup` in any number of sectors; its stiffnesses are derivatives with respect to p, so forces
+/// come in N per unit of p. What does not depend on p is left out, save outer points, whose
+/// stiffness is then zero; springs that `body` does not have because p = 0 are there. Throws
+/// InvalidInput for a parameter that is not among press_parameters.
+LatticeBody body_slope(const LatticeBody& body, const PressSetup& setup,
+                       const PressDirections& directions, Eigen::Index direction = 0);
 
 }  // namespace fingertip::lattice::inline press

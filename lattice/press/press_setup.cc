@@ -282,7 +282,7 @@ std::optional<SwayingHand> swaying_hand(const PressSetup& setup) {
   if (!body) return std::nullopt;
   const meshes::Vector3 endpoint = setup.geometry.rod_endpoint();
   SwayingHand found;
-  found.ratio = inertia_ratio(rubber_inertia(*body, endpoint), hand);
+  found.ratio = largest_ratio(rubber_inertia(*body, endpoint), hand);
   if (found.ratio <= harmless_ratio(servo, latency, setup.rubber.retardation_time))
     return std::nullopt;
 

@@ -59,7 +59,7 @@ std::vector<meshes::Violation> beyond_the_lattice(const PressSetup& setup);
 struct SwayingHand {
   double rate = 0.0;               ///< with which its sway grows [1/s]
   double frequency = 0.0;          ///< of its sway [Hz]
-  double ratio = 0.0;              ///< inertia_ratio
+  double ratio = 0.0;              ///< largest_ratio
   double density = 0.0;            ///< of the same hand that holds still [kg/m³]
   double natural_frequency = 0.0;  ///< with which it holds still [Hz]; 0: with none tried
 };

@@ -44,10 +44,10 @@ constexpr int most_rounds = 100;
 }  // namespace
 
 SlopeSystem::SlopeSystem(const PressSetup& setup, const LatticeBody& body,
-                         const std::vector<PressParameter>& parameters)
+                         const PressDirections& directions)
     : body_(&body) {
-  for (const PressParameter parameter : parameters)
-    parts_.push_back(std::make_unique<const Part>(body_slope(body, setup, parameter)));
+  for (Index j = 0; j < directions.rates.cols(); ++j)
+    parts_.push_back(std::make_unique<const Part>(body_slope(body, setup, directions, j)));
 }
 
 StateSlopes SlopeSystem::at_rest() const {

@@ -12,10 +12,9 @@
 
 namespace fingertip::lattice::inline press {
 
-/// Of a press's forces on the rod, whole tip: rows are samples, columns parameters. N per unit of
-/// the parameter.
+/// Of a press's forces on the rod, whole tip: rows are samples, columns directions (parameters). N
+/// per unit of way.
 struct PressSlopes {
-  std::vector<PressParameter> parameters;
   Eigen::MatrixXd normal_force, lateral_force_x, lateral_force_y;
 };
 
@@ -23,7 +22,7 @@ struct PressSlopes {
 /// where a search decides what sticks, for its state makes the anchors.
 inline constexpr double slope_tolerance = 1e-12;
 
-/// What goes with a state of the press; a column per parameter p.
+/// What goes with a state of the press; a column per direction p.
 struct StateSlopes {
   Eigen::MatrixXd displacement;  ///< du/dp, a row per unknown [m per unit]
   /// Of the anchors relative to the plane, three rows per outer point [m per unit]; those of points
@@ -38,8 +37,7 @@ struct StateSlopes {
 class SlopeSystem {
  public:
   /// Keeps a reference to `body`. Throws InvalidInput as body_slope does.
-  SlopeSystem(const PressSetup& setup, const LatticeBody& body,
-              const std::vector<PressParameter>& parameters);
+  SlopeSystem(const PressSetup& setup, const LatticeBody& body, const PressDirections& directions);
 
   /// Slopes of the state of rest: zero.
   StateSlopes at_rest() const;
@@ -53,7 +51,7 @@ class SlopeSystem {
   /// there.
   void anchor(const std::vector<FirstTouch>& touches, const StateSlopes& start,
               StateSlopes& end) const;
-  /// Of the force on the rod, whole tip; a column per parameter [N per unit].
+  /// Of the force on the rod, whole tip; a column per direction [N per unit].
   Eigen::Matrix3Xd force(const Eigen::VectorXd& displacement, const StateSlopes& slopes) const;
 
  private:
@@ -71,7 +69,7 @@ class SlopeSystem {
                     const StateSlopes& end, Eigen::MatrixXd& forces) const;
 
   const LatticeBody* body_;
-  std::vector<std::unique_ptr<const Part>> parts_;  ///< per parameter
+  std::vector<std::unique_ptr<const Part>> parts_;  ///< per direction
 };
 
 }  // namespace fingertip::lattice::inline press

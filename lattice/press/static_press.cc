@@ -59,12 +59,13 @@ std::vector<meshes::Violation> violations_of(const PressSetup& setup) {
   return relevant.violations();
 }
 
-/// d(G, lambda)/d(E, nu): of G = E/(2 + 2 nu) and lambda = E nu/((1 + nu)(1 - 2 nu)).
-Eigen::Matrix2d lame_by_moduli(const meshes::Rubber& rubber) {
-  const double e = rubber.youngs_modulus, g = rubber.shear_modulus, nu = rubber.poissons_ratio(),
-               product = (1.0 + nu) * (1.0 - 2.0 * nu);
-  return Eigen::Matrix2d{{g / e, -g / (1.0 + nu)},
-                         {nu / product, e * (1.0 + 2.0 * nu * nu) / (product * product)}};
+/// By Poisson's ratio, E held: G = E/(2 + 2 nu), and lambda by E and G.
+PressDirections ratio_direction(const PressSetup& setup) {
+  const meshes::Rubber& rubber = setup.rubber;
+  const double by_ratio = -rubber.shear_modulus / (1.0 + rubber.poissons_ratio());
+  const PressDirections lame = lame_directions(setup.lattice);
+  return {lame.parameters,
+          lame.rates * Eigen::Vector2d(by_ratio, by_ratio * rubber.lambda_slopes()(1))};
 }
 
 void check(const PressSetup& setup) {
@@ -76,9 +77,9 @@ void check(const PressSetup& setup) {
 class StaticPress {
  public:
   StaticPress(const PressSetup& setup, const LatticeBody& body, const StaticObserver& observer);
-  /// Carries derivatives along; `system` must outlive the press. With the derivatives of its
-  /// parameters by E and Poisson's ratio those of the force go into the response.
-  void differentiate(const SlopeSystem& system, const Eigen::MatrixX2d& by_moduli = {});
+  /// Carries derivatives along; `system` must outlive the press. One by Poisson's ratio goes into
+  /// the response.
+  void differentiate(const SlopeSystem& system, bool by_ratio = false);
   /// Takes pictures along.
   void picture() {
     pictures_.emplace(setup_, body_.sectors, body_.rest, nullptr, Moment::first_touch, outcome_);
@@ -119,6 +120,7 @@ class StaticPress {
   const ElasticSystem system_;
   EquilibriumSolver solver_;
   const SlopeSystem* slope_system_ = nullptr;
+  bool by_ratio_ = false;
   double search_tolerance_ = search_tolerance, tolerance_ = force_tolerance;
   State now_;
   double previous_place_ = 0.0;
@@ -129,7 +131,6 @@ class StaticPress {
   std::optional<PressPictures> pictures_;
   const MarkerPoints markers_;
   PressSlopes slopes_;
-  Eigen::MatrixX2d by_moduli_;  ///< of its parameters; empty: not wanted
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
@@ -158,9 +159,9 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
   take_census();
 }
 
-void StaticPress::differentiate(const SlopeSystem& system, const Eigen::MatrixX2d& by_moduli) {
+void StaticPress::differentiate(const SlopeSystem& system, bool by_ratio) {
   slope_system_ = &system;
-  by_moduli_ = by_moduli;
+  by_ratio_ = by_ratio;
   search_tolerance_ = tolerance_ = slope_tolerance;
   now_.slopes = system.at_rest();
 }
@@ -354,10 +355,11 @@ void StaticPress::note_slopes() {
   append(plane.normal.transpose() * force, slopes_.normal_force);
   append(plane.t1.transpose() * force, slopes_.lateral_force_x);
   append(plane.t2.transpose() * force, slopes_.lateral_force_y);
-  if (by_moduli_.size() == 0) return;
-  const Eigen::RowVector2d slopes = slopes_.normal_force.bottomRows(1) * by_moduli_;
-  outcome_.response.back().slope_youngs_modulus = slopes(0);
-  outcome_.response.back().slope_poissons_ratio = slopes(1);
+  if (!by_ratio_) return;
+  // Every energy, those of ties included, is proportional to E where nu is held; so are forces.
+  PressSample& sample = outcome_.response.back();
+  sample.slope_youngs_modulus = sample.normal_force / setup_.rubber.youngs_modulus;
+  sample.slope_poissons_ratio = slopes_.normal_force.bottomRows(1).value();
 }
 
 void StaticPress::note_contact() {
@@ -408,11 +410,7 @@ StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& ob
   StaticPress press(setup, body, observer);
   if (pictured) press.picture();
   std::optional<SlopeSystem> slopes;
-  if (setup.slopes) {
-    const LameSlopes by_lame = lame_slopes(setup.lattice);
-    press.differentiate(slopes.emplace(setup, body, by_lame.parameters),
-                        by_lame.slopes * lame_by_moduli(setup.rubber));
-  }
+  if (setup.slopes) press.differentiate(slopes.emplace(setup, body, ratio_direction(setup)), true);
   return press.run();
 }
 
@@ -423,17 +421,16 @@ StaticOutcome run_static_press(const PressSetup& setup, const LatticeBody& body,
 }
 
 StaticOutcomeWithSlopes run_static_press_with_slopes(const PressSetup& setup,
-                                                     const std::vector<PressParameter>& parameters,
+                                                     const PressDirections& directions,
                                                      const StaticObserver& observer) {
   check(setup);
   const LatticeBody body =
       static_body(setup, largest_symmetry(setup.geometry, setup.lattice, setup.protocol));
-  const SlopeSystem system(setup, body, parameters);
+  const SlopeSystem system(setup, body, directions);
   StaticPress press(setup, body, observer);
   press.differentiate(system);
-  StaticOutcomeWithSlopes result{press.run(), press.slopes()};
-  result.slopes.parameters = parameters;
-  return result;
+  StaticOutcome outcome = press.run();
+  return {std::move(outcome), press.slopes()};
 }
 
 }  // namespace fingertip::lattice::inline press

@@ -65,14 +65,14 @@ struct StaticOutcomeWithSlopes {
   PressSlopes slopes;
 };
 
-/// run_static_press, and the derivatives of its forces with respect to `parameters` (which may be
+/// run_static_press, and the derivatives of its forces in `directions` (which may be
 /// none): exact for the path computed, as long as every point touches, slides or is released in the
 /// same step. All states are in equilibrium to slope_tolerance, so that forces may differ from
 /// run_static_press's by what its coarser search for the points that stick leaves, and finite
 /// differences of them are good for comparison. Throws InvalidInput as body_slope does,
 /// NotConverged also where a tangent is not positive definite.
 StaticOutcomeWithSlopes run_static_press_with_slopes(const PressSetup& setup,
-                                                     const std::vector<PressParameter>& parameters,
+                                                     const PressDirections& directions,
                                                      const StaticObserver& observer = {});
 
 }  // namespace fingertip::lattice::inline press

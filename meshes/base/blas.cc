@@ -39,6 +39,16 @@ const OpenBlas& open_blas() {
   return found;
 }
 
+/// Of a processor made after OpenBLAS's Haswell kernels, which are the newest that it takes for one
+/// that it does not know.
+bool runs_haswell_kernels() {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+  return false;
+#endif
+}
+
 bool chosen_by_features = false;
 
 }  // namespace
@@ -53,7 +63,7 @@ void leave_oldest_blas_kernels() {
   const OpenBlas& blas = open_blas();
   if (blas.forget_kernels == nullptr || blas.choose_kernels == nullptr ||
       std::getenv(choice) != nullptr || blas_kernels().name != "Prescott" ||
-      !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+      !runs_haswell_kernels())
     return;
   ::setenv(choice, "Haswell", 1);
   blas.forget_kernels();

@@ -1,6 +1,5 @@
 #include "meshes/press/contact_map.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
@@ -13,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "meshes/base/dense.h"
 #include "meshes/press/contact_patch.h"
 
 namespace fingertip::meshes::inline press {
@@ -119,7 +119,7 @@ class Interpolation {
       basis.row(row) *= weight;
       values.row(row++) *= weight;
     }
-    return basis.colPivHouseholderQr().solve(values).transpose();
+    return least_squares(basis, values).transpose();
   }
 
   std::span<const ContactPoint> field_;

@@ -38,6 +38,12 @@ std::vector<Violation> Rubber::violations() const {
   return found;
 }
 
+Eigen::RowVector2d Rubber::lambda_slopes() const {
+  const double e = youngs_modulus, g = shear_modulus;
+  return Eigen::RowVector2d(g * g, 4.0 * e * g - e * e - 6.0 * g * g) /
+         ((3.0 * g - e) * (3.0 * g - e));
+}
+
 double Rubber::longitudinal_wave_speed() const {
   return std::sqrt(longitudinal_modulus() / density);
 }

@@ -2,6 +2,7 @@
 /// large strain by a law of them.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "meshes/base/errors.h"
@@ -36,6 +37,8 @@ struct Rubber {
   }
   /// First Lamé constant, lambda = K - 2G/3 [Pa]
   double lame_lambda() const { return bulk_modulus() - 2.0 / 3.0 * shear_modulus; }
+  /// d(lambda)/d(E, G), lambda = G (E - 2G)/(3G - E), dimensionless.
+  Eigen::RowVector2d lambda_slopes() const;
   /// Modulus of a laterally confined layer, lambda + 2G [Pa]
   double longitudinal_modulus() const { return lame_lambda() + 2.0 * shear_modulus; }
   /// c_p = sqrt((lambda + 2G)/rho) [m/s]

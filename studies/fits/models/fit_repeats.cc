@@ -261,7 +261,7 @@ void put_chi_square(CurveFit& fit, const FitInput& input, const VectorXd& told) 
   const MatrixXd& known = input.options.model_covariance;
   VectorXd whitened = calibration::stacked(fit.residuals);
   if (known.size() > 0)
-    whitened = calibration::decomposed_covariance(known, told).operatorInverseSqrt() * whitened;
+    whitened = calibration::decomposed_covariance(known, told).inverse_root() * whitened;
   else
     whitened = whitened.cwiseQuotient(told);
   double squares = whitened.squaredNorm();

@@ -1,7 +1,6 @@
 #include "studies/fits/models/held_back.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -9,6 +8,7 @@
 #include "calibration/statistics/curve_checks.h"
 #include "calibration/statistics/posterior.h"
 #include "calibration/statistics/value_errors.h"
+#include "meshes/base/dense.h"
 #include "meshes/base/errors.h"
 #include "meshes/press/no_equilibrium.h"
 #include "studies/fits/models/fit_repeats.h"
@@ -31,14 +31,14 @@ constexpr Index draw_count = 4000;
 /// Columns L with L Lᵀ the covariance, but for a ten thousandth of it.
 MatrixXd root_of(const MatrixXd& covariance) {
   constexpr double negligible = 1e-4;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(covariance);
-  const VectorXd variances = eigen.eigenvalues().cwiseMax(0.0);  // increasing
+  const meshes::EigenPairs eigen = meshes::symmetric_eigen(covariance);
+  const VectorXd variances = eigen.values.cwiseMax(0.0);  // increasing
   const double sum = variances.sum();
   Index left_out = 0;
   for (double small = 0.0; left_out < variances.size(); ++left_out)
     if ((small += variances(left_out)) > negligible * sum) break;
   const Index kept = variances.size() - left_out;
-  return eigen.eigenvectors().rightCols(kept) *
+  return eigen.vectors.rightCols(kept) *
          variances.tail(kept).cwiseSqrt().asDiagonal().toDenseMatrix();
 }
 

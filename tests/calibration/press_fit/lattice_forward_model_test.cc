@@ -9,15 +9,6 @@
 
 using namespace fit_fixtures;
 
-/// lambda = G (E - 2G)/(3G - E)
-TEST(ForwardModel, SlopesOfLambdaMeetDifferences) {
-  const auto lambda_of = [](double e, double g) { return g * (e - 2.0 * g) / (3.0 * g - e); };
-  const double e = 4.0, g = 1.5, h = 1e-5;
-  const Eigen::RowVector2d slopes = lambda_slopes(e, g);
-  EXPECT_NEAR(slopes(0), (lambda_of(e + h, g) - lambda_of(e - h, g)) / (2.0 * h), 1e-8);
-  EXPECT_NEAR(slopes(1), (lambda_of(e, g + h) - lambda_of(e, g - h)) / (2.0 * h), 1e-7);
-}
-
 namespace {
 
 PressSetup tilted(ContactMode contact, ModelKind model = ModelKind::hookean) {

@@ -205,7 +205,7 @@ TEST(PressSlopes, AgreesWithDifferencesFromZero) {
   PressSetup setup =
       press_at(6, {0.1}, ContactMode::frictionless, ModelKind::central, Kinematics::small);
   setup.lattice.constants.k3 = 0.0;
-  const auto base = lattice::run_static_press_with_slopes(setup, {PressParameter::k3});
+  const auto base = lattice::run_static_press_with_slopes(setup, {{PressParameter::k3}});
   const auto force = [](const lattice::StaticOutcomeWithSlopes& press) {
     return press.outcome.response.samples().back().normal_force;
   };
@@ -256,7 +256,6 @@ TEST(PressSlopes, LeaveThePressAsItIs) {
     }
     EXPECT_EQ(none.slopes.normal_force.rows(), 2);
     EXPECT_EQ(none.slopes.normal_force.cols(), 0);
-    EXPECT_EQ(sloped.slopes.parameters, press_parameters(setup.lattice));
   }
 }
 
@@ -275,7 +274,7 @@ TEST(BodySlope, IsTheDerivativeOfTheEnergy) {
       for (const PressParameter p : press_parameters(setup.lattice)) {
         const double more = energy(static_body(changed(setup, p, 1.4), 1), u);
         const double less = energy(static_body(changed(setup, p, 0.6), 1), u);
-        const LatticeBody slope = body_slope(body, setup, p);
+        const LatticeBody slope = body_slope(body, setup, {{p}});
         ASSERT_EQ(slope.outer.size(), body.outer.size());
         EXPECT_NEAR(value_of(p, setup) * energy(slope, u), (more - less) / 0.8,
                     1e-11 * energy(body, u))
@@ -286,26 +285,32 @@ TEST(BodySlope, IsTheDerivativeOfTheEnergy) {
   }
 }
 
-/// By E at held Poisson's ratio forces are proportional; by Poisson's ratio central differences.
+/// Against central differences, by E at held Poisson's ratio and by Poisson's ratio at held E.
 TEST(PressSlopes, ByTheRubbersModuliStandInTheResponse) {
   for (const ModelKind model : {ModelKind::hookean, ModelKind::network}) {
     for (const ContactMode contact : {ContactMode::stick, ContactMode::frictionless}) {
-      const auto pressed = [&](double ratio) {
+      const auto pressed = [&](double ratio, double stiffer = 1.0) {
         PressSetup setup =
             press_at(5, depths(0.08), contact, model,
                      model == ModelKind::network ? Kinematics::finite : Kinematics::small);
         setup.protocol.mode = meshes::DriveMode::equilibrium;
         setup.slopes = true;
+        setup.rubber.youngs_modulus *= stiffer;
         setup.rubber.shear_modulus = setup.rubber.youngs_modulus / (2.0 * (1.0 + ratio));
         setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
         return std::pair(run_static_press(setup).response.back(), setup.rubber.youngs_modulus);
       };
       constexpr double ratio = 0.42, change = 1e-5;
       const auto [sample, modulus] = pressed(ratio);
-      EXPECT_NEAR(modulus * sample.slope_youngs_modulus / sample.normal_force, 1.0, 1e-9);
-      const double more = pressed(ratio + change).first.normal_force,
-                   less = pressed(ratio - change).first.normal_force;
-      EXPECT_NEAR(sample.slope_poissons_ratio / ((more - less) / (2.0 * change)), 1.0, 1e-5);
+      const auto difference = [](const auto& more, const auto& less) {
+        return (more.first.normal_force - less.first.normal_force) / (2.0 * change);
+      };
+      EXPECT_NEAR(sample.slope_youngs_modulus * modulus /
+                      difference(pressed(ratio, 1.0 + change), pressed(ratio, 1.0 - change)),
+                  1.0, 1e-5);
+      EXPECT_NEAR(sample.slope_poissons_ratio /
+                      difference(pressed(ratio + change), pressed(ratio - change)),
+                  1.0, 1e-5);
     }
   }
 }
@@ -327,7 +332,7 @@ TEST(PressParameters, RefusesWhatTheModelDoesNotHave) {
   PressSetup setup = press_at(6, {0.1}, ContactMode::stick, ModelKind::central, Kinematics::small);
   const auto refused = [&](PressParameter p) {
     EXPECT_TRUE(refuses<meshes::InvalidInput>(
-        [&] { lattice::run_static_press_with_slopes(setup, {p}); }, std::string(name(p))));
+        [&] { lattice::run_static_press_with_slopes(setup, {{p}}); }, std::string(name(p))));
   };
   refused(PressParameter::kappa);
   refused(PressParameter::lambda);

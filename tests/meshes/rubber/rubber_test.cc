@@ -37,6 +37,20 @@ TEST(Rubber, ModuliAreConsistentForEveryAdmissiblePoissonsRatio) {
   }
 }
 
+TEST(Rubber, SlopesOfLambdaMeetDifferences) {
+  const auto lambda_of = [](double e, double g) {
+    Rubber rubber;
+    rubber.youngs_modulus = e;
+    rubber.shear_modulus = g;
+    return rubber.lame_lambda();
+  };
+  Rubber rubber;
+  const double e = rubber.youngs_modulus = 4.0, g = rubber.shear_modulus = 1.5, h = 1e-5;
+  const Eigen::RowVector2d slopes = rubber.lambda_slopes();
+  EXPECT_NEAR(slopes(0), (lambda_of(e + h, g) - lambda_of(e - h, g)) / (2.0 * h), 1e-8);
+  EXPECT_NEAR(slopes(1), (lambda_of(e, g + h) - lambda_of(e, g - h)) / (2.0 * h), 1e-7);
+}
+
 TEST(Rubber, RefusesShearModulusAtOrBelowAThirdOfYoungs) {
   for (const double ratio : {0.2, 1.0 / 3.0}) {
     Rubber rubber;
