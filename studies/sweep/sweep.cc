@@ -38,6 +38,7 @@ class SweepReader {
  public:
   std::string verb;
   std::map<std::string, std::vector<std::string>> axes;  ///< key: literals, without repetitions
+  std::vector<SweepPoint> points;                        ///< given one by one
   std::vector<meshes::Violation> problems;
 
   void read_file(const std::filesystem::path& file) {
@@ -62,6 +63,8 @@ class SweepReader {
       const std::string place = file_.string() + ":" + std::to_string(node.source().begin.line);
       if (key == "verb" && node.is_string()) {
         verb = node.as_string()->get();
+      } else if (key == "points") {
+        take_points(node, place, file_.parent_path());
       } else if (const toml::table* inner = node.as_table()) {
         read_table(*inner, key + ".");
       } else if (const Key* known = find_key(key); known == nullptr) {
@@ -75,10 +78,15 @@ class SweepReader {
 
   bool read_set(const std::string& text) {
     const auto equals = text.find('=');
+    const bool listed = text.substr(0, equals) == "sweep.points";
     const Key* key = find_key(text.substr(0, equals));
-    if (equals == text.npos || key == nullptr) return false;
+    if (equals == text.npos || (key == nullptr && !listed)) return false;
     const toml::table parsed = parsed_literal(text.substr(equals + 1));
-    if (parsed.empty() || !is_axis(*key, *parsed.get("v"))) return false;
+    if (listed && !parsed.empty()) {
+      take_points(*parsed.get("v"), "--set " + text, {});
+      return true;
+    }
+    if (parsed.empty() || listed || !is_axis(*key, *parsed.get("v"))) return false;
     take(*key, *parsed.get("v"), "--set " + text, {});
     return true;
   }
@@ -95,13 +103,50 @@ class SweepReader {
     std::vector<std::string>& values = axes[name];
     values.clear();
     for (const toml::node& element : *node.as_array()) {
-      try {
-        const std::string literal = read(key, element, base).literal;
-        if (std::ranges::find(values, literal) == values.end()) values.push_back(literal);
-      } catch (const UnitError& error) {
-        problems.push_back(
-            {name, unquoted(toml_literal(element)), error.rule, error.remedy, place});
-      }
+      const std::string literal = literal_of(key, element, place, base);
+      if (std::ranges::find(values, literal) == values.end()) values.push_back(literal);
+    }
+  }
+
+  /// Empty where it cannot be read, which is a problem.
+  std::string literal_of(const Key& key, const toml::node& node, const std::string& place,
+                         const std::filesystem::path& base) {
+    try {
+      return read(key, node, base).literal;
+    } catch (const UnitError& error) {
+      problems.push_back(
+          {key.full_name(), unquoted(toml_literal(node)), error.rule, error.remedy, place});
+      return "";
+    }
+  }
+
+  void take_points(const toml::node& node, const std::string& place,
+                   const std::filesystem::path& base) {
+    points.clear();
+    const toml::array* list = node.as_array();
+    const bool tables = list != nullptr && !list->empty() &&
+                        std::ranges::all_of(*list, [](const auto& one) { return one.is_table(); });
+    if (!tables) {
+      problems.push_back(
+          {"sweep.points", toml_literal(node), "points are a list of settings",
+           "write e.g. points = [{press.contact = \"stick\"}, {press.depth = \"2 mm\"}]", place});
+      return;
+    }
+    for (const toml::node& one : *list)
+      add_settings(*one.as_table(), "", place, base, points.emplace_back());
+  }
+
+  void add_settings(const toml::table& table, const std::string& prefix, const std::string& place,
+                    const std::filesystem::path& base, SweepPoint& point) {
+    for (const auto& [name, node] : table) {
+      const std::string key = prefix + std::string(name.str());
+      if (const Key* known = find_key(key))
+        point.settings[key] = literal_of(*known, node, place, base);
+      else if (node.is_table())
+        add_settings(*node.as_table(), key + ".", place, base, point);
+      else
+        problems.push_back({"sweep.points", key, "unknown key",
+                            "the nearest valid key is " + nearest_key(key), place});
     }
   }
 
@@ -122,7 +167,8 @@ std::string common_text(const std::string& verb, const LoadedConfig& base,
 
 /// Throws ConfigError before there are more than memory may hold.
 std::vector<SweepPoint> combinations(const SweepReader& reader) {
-  std::vector<SweepPoint> points(1);
+  std::vector<SweepPoint> points =
+      reader.points.empty() ? std::vector<SweepPoint>(1) : reader.points;
   for (const auto& [key, values] : reader.axes) {
     if (points.size() * values.size() > max_points)
       throw ConfigError({"", "", "more than a million points", "shorten an axis", "sweep"});
@@ -144,7 +190,7 @@ void check(const SweepReader& reader, const std::string& verb) {
     problems.push_back({"verb", verb, "a sweep consists of press, modes, reference or grasp",
                         "the nearest one is " + nearest_word(verb, verbs()), "sweep"});
   }
-  if (reader.axes.empty() && problems.empty()) {
+  if (reader.axes.empty() && reader.points.empty() && problems.empty()) {
     problems.push_back({"", "", "no key has a list of values",
                         "write e.g. --set 'lattice.spacing=[\"tip_radius/6\", \"tip_radius/8\"]', "
                         "or a table [sweep]",
@@ -178,14 +224,24 @@ Sweep read_sweep(const ConfigSource& source, const std::string& verb) {
   sweep.verb = !verb.empty() ? verb : reader.verb.empty() ? "press" : reader.verb;
   check(reader, sweep.verb);
   sweep.base = load_config(shared);
-  for (const auto& [key, values] : reader.axes) sweep.axes.push_back(key);
+  std::set<std::string> axes;
+  for (const auto& [key, values] : reader.axes) axes.insert(key);
+  for (const SweepPoint& point : reader.points)
+    for (const auto& [key, value] : point.settings) axes.insert(key);
+  sweep.axes.assign(axes.begin(), axes.end());
   sweep.points = combinations(reader);
-  const std::string common =
-      common_text(sweep.verb, sweep.base, {sweep.axes.begin(), sweep.axes.end()});
+  // What only some of them set is for the others as for the whole sweep.
+  for (SweepPoint& point : sweep.points)
+    for (const std::string& key : axes)
+      if (const Entry& entry = sweep.base.entries.at(key); entry.given)
+        point.settings.try_emplace(key, entry.literal);
+  const std::string common = common_text(sweep.verb, sweep.base, axes);
   for (SweepPoint& point : sweep.points) {
     point.id = sha256(common + settings_text(point)).substr(0, id_digits);
   }
   std::ranges::sort(sweep.points, {}, &SweepPoint::id);
+  const auto twins = std::ranges::unique(sweep.points, {}, &SweepPoint::id);
+  sweep.points.erase(twins.begin(), twins.end());
   return sweep;
 }
 

@@ -14,14 +14,14 @@ namespace fingertip::studies::inline sweep {
 /// and its own settings, in whatever order they were written; threads do not count.
 struct SweepPoint {
   std::string id;                               ///< 12 hexadecimal digits, its folder's name
-  std::map<std::string, std::string> settings;  ///< key: TOML literal, the axes' values
+  std::map<std::string, std::string> settings;  ///< key: TOML literal, of the axes
 };
 
 struct Sweep {
   std::string verb;                ///< press, modes, reference or grasp
   LoadedConfig base;               ///< what all points share
   std::vector<std::string> axes;   ///< keys that vary, sorted
-  std::vector<SweepPoint> points;  ///< all combinations, sorted by id
+  std::vector<SweepPoint> points;  ///< without repetitions, sorted by id
 };
 
 /// Part `number` (1 ... of) of a sweep.
@@ -34,8 +34,10 @@ Shard parse_shard(const std::string& text);
 
 /// The sweep that `source` describes. Axes are keys with a list of values where one value is meant
 /// (a list of lists where the key takes a list): in the table [sweep] of the file, or by --set,
-/// which replaces an axis of the file. `verb` empty: sweep.verb of the file, else press. Throws
-/// ConfigError with all problems: no axis, an empty one, unknown keys, values that cannot be read.
+/// which replaces an axis of the file. Instead of all combinations, or times those, `points` in
+/// [sweep] or --set sweep.points lists settings one by one: [{press.depth = "2 mm"}, ...]. `verb`
+/// empty: sweep.verb of the file, else press. Throws ConfigError with all problems: no axis, an
+/// empty one, unknown keys, values that cannot be read.
 Sweep read_sweep(const ConfigSource& source, const std::string& verb);
 
 /// Every of-th point from the number-th on, in the order of identities: shards are disjoint, make

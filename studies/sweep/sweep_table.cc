@@ -80,16 +80,26 @@ void read_answer(const fs::path& folder, Row& row, FolderReader& reader) {
   std::erase_if(row.answers, [](const auto& entry) { return std::isnan(entry.second); });
 }
 
+/// Empty: none is told. Throws InvalidInput for a word that no run ends with.
+std::string known_status(const JsonEntry& marker) {
+  const std::string status = text_if_any(marker, "status");
+  const auto is = [&](const char* word) { return status.starts_with(word); };
+  if (!status.empty() && status != finished && !is("not converged") && !is("failed"))
+    marker.at("status").refuse("a run that ended is finished, not converged or failed");
+  return status;
+}
+
 /// Everything of a point that can be read; a point with damaged files says so.
 Row read_row(const JsonEntry& point, const std::vector<std::string>& axes, const fs::path& folder,
              FolderReader& reader) {
   Row row;
   row.id = text_at(point, "id");
   const JsonEntry settings = object_at(point, "settings");
-  for (const std::string& axis : axes) row.settings.push_back(unquoted(text_at(settings, axis)));
+  for (const std::string& axis : axes)
+    row.settings.push_back(unquoted(text_if_any(settings, axis.c_str())));
   const std::size_t damage = reader.damage().size();
   const JsonEntry marker = reader.json(folder / row.id / marker_name);
-  row.status = reader.attempt([&] { return text_if_any(marker, "status"); });
+  row.status = reader.attempt([&] { return known_status(marker); });
   if (row.status == finished) {
     const JsonEntry summary = reader.json(folder / row.id / "summary.json");
     reader.attempt([&] { flatten(summary, "", row); });

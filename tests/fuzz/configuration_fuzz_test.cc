@@ -184,7 +184,8 @@ TEST(FuzzConfiguration, Sweeps) {
       "[sweep]\nverb = \"modes\"\n[sweep.press]\nsamples = [[\"0.1 cm\"], [\"0.1 cm\", \"0.2 "
       "cm\"]]\n"};
   std::vector<std::string> words = words_of_configuration();
-  words.insert(words.end(), {"[sweep]\n", "sweep.", "verb = \"grasp\"\n", "[[\"1 cm\"]]", "[]"});
+  words.insert(words.end(), {"[sweep]\n", "points = [{press.depth = \"1 mm\"}]\n", "sweep.",
+                             "verb = \"grasp\"\n", "[[\"1 cm\"]]", "[]"});
   fuzz::attack({seeds, words}, fuzz::refusing<ConfigError>([&](const std::string& input) {
                  write_text(file, input);
                  const Sweep sweep = read_sweep({file, {}, {}}, "");

@@ -29,7 +29,7 @@ from .errors import (
     TestsFailed,
 )
 from .runs import SLOPES, Calibration, Comparison, Presses, Response, Run
-from .settings import Key, config_file, described, keys, sections, sets
+from .settings import Key, config_file, described, keys, literal, sections, sets
 from .tables import Table, read_csv
 
 __all__ = [
@@ -77,15 +77,18 @@ def press(settings: Mapping[str, Any] | None = None, *, slopes: Sequence[str] = 
     return _run(Response, "press", [], config, settings, out, force, resume, quiet, 1, further)
 
 
-def presses(axes: Mapping[str, Sequence[Any]], settings: Mapping[str, Any] | None = None, *, config=None, out=None,
+def presses(points: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]], settings: Mapping[str, Any] | None = None, *, config=None, out=None,
             resume=False, quiet=False, threads=0, **further) -> Presses:  # fmt: skip
-    """Presses the lattice with every combination of values of the keys in `axes`, {"section.key": [values]},
-    `threads` at a time (0: as many as there are cores): the verb sweep. What did not converge is left out, and told."""
-    if wrong := [key for key, values in axes.items() if isinstance(values, str) or not hasattr(values, "__len__")]:
-        raise ConfigError([(key, str(axes[key]), "", "an axis is a list of values", "put it into brackets")
+    """Presses the lattice with every combination of values, {"section.key": [values]}, or with each of a list of
+    settings, [{"section.key": value}, ...], `threads` at a time (0: as many as there are cores): the verb sweep.
+    What did not converge is left out, and told."""
+    grid = isinstance(points, Mapping)
+    if wrong := [key for key in points if grid and (isinstance(points[key], str) or not hasattr(points[key], "__len__"))]:
+        raise ConfigError([(key, str(points[key]), "", "an axis is a list of values", "put it into brackets")
                            for key in wrong])  # fmt: skip
+    axes = sets(points, {}) if grid else ["sweep.points=" + literal(list(points))]
     folder = os.fspath(out) if out is not None else _fresh("sweep")
-    given = sets(settings, further) + sets(axes, {}) + ([f"run.threads={threads}"] if threads else [])
+    given = sets(settings, further) + axes + ([f"run.threads={threads}"] if threads else [])
     code = _core.run("sweep", ["press"], config_file(config), given, folder, False, resume, quiet, 1)
     result = Presses(folder)
     if code == 3:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 
 #include "meshes/tables/csv_table.h"
@@ -82,6 +83,41 @@ TEST(SweepVerb, ShardsAreDisjointAndMakeUpTheWholeInAnyOrderOfWriting) {
       R"(lattice.model=["network","hookean"])", R"(press.samples=["0.05 cm"])",
       "press.contact=frictionless", "press.mode=static"};
   EXPECT_EQ(first_words(folder.run("sweep --list --threads 3", turned).out), whole);
+}
+
+/// The same points, one by one; what only some set is for the others as for the whole sweep.
+TEST(SweepVerb, PointsMayBeListed) {
+  const Workplace folder;
+  const auto listed = [&](const Words& settings) {
+    return first_words(folder.run("sweep --list", Words{"press.mode=static"} + settings).out);
+  };
+  const Words grid = listed({"press.depth=[\"1 mm\", \"2 mm\"]", "press.contact=[\"stick\"]"});
+  ASSERT_EQ(grid.size(), 2U);
+  EXPECT_EQ(
+      listed(
+          {R"(sweep.points=[{press.depth="2 mm"}, {press={depth="1 mm"}}, {press.depth="2 mm"}])",
+           "press.contact=[\"stick\"]"}),
+      grid);
+  EXPECT_EQ(
+      listed(
+          {R"(sweep.points=[{press.depth="2 mm", press.contact="stick"}, {press.contact="stick"}])",
+           "press.depth=1 mm"}),
+      grid);
+  folder.expect_refused("sweep --out no", {"sweep.points=[1]"}, {"points are a list of settings"});
+  folder.expect_refused("sweep --out no", {"sweep.points=[{press.dept=\"1 mm\"}]"},
+                        {"nearest valid key is press.depth"});
+}
+
+TEST(SweepVerb, AStatusThatNoRunHasIsDamage) {
+  const Workplace folder;
+  folder.run("sweep --out points", six_presses);
+  const fs::path marker =
+      fs::directory_iterator(folder / "points/points")->path() / "finished.json";
+  std::string text = read_text(marker);
+  text.replace(text.find("finished"), 8, "finhshed");
+  std::ofstream(marker) << text;
+  const ProgramResult result = folder.run("sweep --collect --out points", {}, 2);
+  EXPECT_TRUE(says(result.err, marker.filename().string())) << result.err;
 }
 
 /// A press that moves laterally has a column more than one that does not.
