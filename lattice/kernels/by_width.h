@@ -1,4 +1,4 @@
-/// Which of the compilations of a kernel serves: SSE2, AVX2 or AVX-512; WebAssembly has one.
+/// Which of the compilations of a kernel serves: SSE2, AVX2 or AVX-512 on x86-64, elsewhere one.
 #pragma once
 
 #include <stdexcept>
@@ -8,10 +8,10 @@
 namespace fingertip::lattice::inline kernels::kernel {
 
 /// Doubles per register of the compilations that there are (instruction_sets).
-#ifdef __wasm__
-using Widths = std::integer_sequence<int, 2>;
-#else
+#ifdef __x86_64__
 using Widths = std::integer_sequence<int, 2, 4, 8>;
+#else  // NEON, WebAssembly
+using Widths = std::integer_sequence<int, 2>;
 #endif
 
 /// Most doubles per register, of Widths, that the running processor supports.

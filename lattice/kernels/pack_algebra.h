@@ -45,9 +45,7 @@ struct PackAlgebra {
   [[gnu::always_inline]] static Pack shifted(const Pack& before, const Pack& value,
                                              std::integer_sequence<int, Lane...>) {
     constexpr int last = int(Pack::size()) - 1;
-    using Raw [[gnu::vector_size(sizeof(Pack))]] = double;
-    return Pack(__builtin_shufflevector(static_cast<Raw>(before), static_cast<Raw>(value),
-                                        (last + Lane)...));
+    return Pack(__builtin_shufflevector(raw_vector(before), raw_vector(value), (last + Lane)...));
   }
 
   [[gnu::always_inline]] static Rows multiple(const Pack& s, const Rows& A) {
@@ -126,9 +124,9 @@ struct PackAlgebra {
     Pack tail = 1.0;
     for (int n = 13; n > 1; --n) tail = Pack(1.0) + r * Pack(1.0 / n) * tail;
     const Pack more = r * tail, series = Pack(1.0) + more;
-    const Bits power = reinterpret_cast<Bits>(static_cast<Raw>(sum)) << 52;
-    return {Pack(reinterpret_cast<Raw>(reinterpret_cast<Bits>(static_cast<Raw>(series)) + power)),
-            more, k};
+    const Bits power = reinterpret_cast<Bits>(raw_vector(sum)) << 52;
+    return {Pack(reinterpret_cast<Raw>(reinterpret_cast<Bits>(raw_vector(series)) + power)), more,
+            k};
   }
 
   /// Natural logarithm. Packs: to 1 ulp (2e-16) for 2^-12 <= value <= 2^12; beyond, that of the

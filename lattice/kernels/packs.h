@@ -12,6 +12,13 @@
 
 namespace fingertip::lattice::inline kernels::kernel {
 
+/// A pack as a vector of the compiler's own. (Of conversions ARM's lack one in libstdc++ 12.)
+template <typename Pack>
+[[gnu::always_inline]] inline auto raw_vector(const Pack& value) {
+  using Raw [[gnu::vector_size(sizeof(Pack))]] = double;
+  return __builtin_bit_cast(Raw, value);
+}
+
 /// Of packs, or of plain numbers. Inlined by force: handing dozens of packs on would lead through
 /// memory.
 template <typename Pack>
@@ -64,9 +71,12 @@ struct Packs {
   [[gnu::always_inline]] static void keep([[maybe_unused]] Pack& value) {
 #ifndef __wasm__  // which has no registers
     if constexpr (std::experimental::is_simd_v<Pack>) {
-      using Raw [[gnu::vector_size(sizeof(Pack))]] = double;
-      Raw raw = static_cast<Raw>(value);
+      auto raw = raw_vector(value);
+#ifdef __x86_64__
       asm volatile("" : "+v"(raw));
+#else
+      asm volatile("" : "+w"(raw));
+#endif
       value = Pack(raw);
     }
 #endif

@@ -1,11 +1,22 @@
 /// Waiting awake.
 #pragma once
 
-#include <emmintrin.h>
-
 #include <chrono>
 
+#ifdef __x86_64__
+#include <emmintrin.h>
+#endif
+
 namespace fingertip::lattice::inline threads {
+
+/// Tells the processor that this thread only waits.
+inline void pause() {
+#ifdef __x86_64__
+  _mm_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
 
 /// Looks again and again whether `done()`, for about `patience`; returns whether it is. Anything
 /// that takes less than some ten microseconds is missed by a thread that goes to sleep.
@@ -16,7 +27,7 @@ bool spin_until(const Done& done, std::chrono::nanoseconds patience) {
   do {
     for (int look = 0; look < looks_per_glance; ++look) {
       if (done()) return true;
-      _mm_pause();
+      pause();
     }
   } while (std::chrono::steady_clock::now() - start < patience);
   return done();

@@ -16,6 +16,12 @@ using fingertip::meshes::PressSample;
 namespace {
 
 constexpr const char* emulator = "/usr/bin/qemu-x86_64";
+#ifdef __x86_64__
+const bool can_emulate = ::access(emulator, X_OK) == 0;
+#else
+constexpr bool can_emulate = false;
+#endif
+constexpr const char* why_not = "needs a program for x86-64 and the Debian package qemu-user";
 
 /// Core 2 without and its successor with SSE 4. (Not qemu64, which no factory made: OpenBLAS takes
 /// it for an Opteron and uses 3DNow!, which it lacks.)
@@ -47,7 +53,7 @@ void expect_same(const PressResponse& found, const PressResponse& expected, doub
 class OldProcessor : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    if (::access(emulator, X_OK) != 0) GTEST_SKIP() << "needs the Debian package qemu-user";
+    if (!can_emulate) GTEST_SKIP() << why_not;
     ::unsetenv("OPENBLAS_CORETYPE");  // it would choose kernels for another processor
     ::setenv("OPENBLAS_NUM_THREADS", "1", 1);
   }
@@ -98,7 +104,7 @@ TEST_P(OldProcessor, FindsTheSameEquilibrium) {
 
 /// OpenBLAS falls back to kernels without AVX on a Xeon made after it (family 6, model 207).
 TEST(UnknownProcessor, GetsKernelsThatItCanRun) {
-  if (::access(emulator, X_OK) != 0) GTEST_SKIP() << "needs the Debian package qemu-user";
+  if (!can_emulate) GTEST_SKIP() << why_not;
   ::unsetenv("OPENBLAS_CORETYPE");
   const TemporaryFolder folder;
   const auto doctor = [&](const char* processor) {
