@@ -68,11 +68,6 @@ Matrix6 unit_spring_on_rod(const Vector3& rest, const RodBody& rod) {
   return rigid_inertia(1.0, rest - rod.centre);
 }
 
-/// Largest eigenvalue of a form of the rod's motion about its centre beside its inertia.
-double ratio_to_rod(const Matrix6& form, const RodBody& rod) {
-  return largest_ratio(form, rigid_inertia(rod.mass, Vector3::Zero(), rod.inertia));
-}
-
 /// Largest eigenvalue of the rod's own block: bond on a rod whose particles stand still.
 double rod_bound(const LatticeModel& model, Quantity quantity, const RodBody& rod) {
   Matrix6 stiffness = Matrix6::Zero();
@@ -84,7 +79,8 @@ double rod_bound(const LatticeModel& model, Quantity quantity, const RodBody& ro
       stiffness += tie.stiffness * unit_spring_on_rod(tie.rest, rod);
     }
   }
-  return ratio_to_rod(model.sector.whole(stiffness), rod);
+  return largest_ratio(model.sector.whole(stiffness),
+                       rigid_inertia(rod.mass, Vector3::Zero(), rod.inertia));
 }
 
 /// Of K with the rod free: |u_p - u_r|² <= (1 + e)|u_p|² + (1 + 1/e)|u_r|² for every e > 0

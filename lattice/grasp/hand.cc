@@ -55,9 +55,7 @@ double Hand::find_coupling() const {
   const meshes::Geometry& geometry = setup_.finger.geometry;
   const double lowest = geometry.pole() - deepest * geometry.thickness();
   const RodBody& body = block_.body();
-  Matrix6 own = Matrix6::Zero(), touching = Matrix6::Zero();
-  own.topLeftCorner<3, 3>() = body.mass * Eigen::Matrix3d::Identity();
-  own.bottomRightCorner<3, 3>() = body.inertia;
+  Matrix6 touching = Matrix6::Zero();
   for (std::size_t i = 0; i < 2; ++i) {
     const LatticeModel& model = fingers_[i]->model();
     std::set<std::uint32_t> corners;
@@ -70,7 +68,7 @@ double Hand::find_coupling() const {
       touching += rigid_inertia(model.mass[corner], place - body.centre);
     }
   }
-  return largest_ratio(touching, own);
+  return largest_ratio(touching, rigid_inertia(body.mass, Vector3::Zero(), body.inertia));
 }
 
 Vector3 Hand::momentum() const {

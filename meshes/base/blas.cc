@@ -39,8 +39,7 @@ const OpenBlas& open_blas() {
   return found;
 }
 
-/// Of a processor made after OpenBLAS's Haswell kernels, which are the newest that it takes for one
-/// that it does not know.
+/// Whether the running processor has what OpenBLAS's Haswell kernels need.
 bool runs_haswell_kernels() {
 #ifdef __x86_64__
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");

@@ -270,10 +270,10 @@ def main():
     faults = dict(list(faults.items())[: options.count])
 
     tests = test_list(build, options.programs)
-    known = options.work / "reached.json"
-    if not known.exists():
-        known.write_text(json.dumps(reaches(tests, options.work / "reached")))
-    found = json.loads(known.read_text())
+    record = options.work / "reached.json"
+    if not record.exists():
+        record.write_text(json.dumps(reaches(tests, options.work / "reached")))
+    found = json.loads(record.read_text())
     print(f"{len(found)} of {len(tests)} tests pass sound, in {sum(s for s, _ in found.values()):.0f} s", flush=True)
 
     equal = tomllib.loads((HERE / "equal.toml").read_text())["fault"]

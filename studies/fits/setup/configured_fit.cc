@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "calibration/press_fit/lattice_forward_model.h"
 #include "studies/config/finger_defaults.h"
@@ -246,35 +248,34 @@ void hold_back(const LoadedConfig& loaded, FitSetup& fit) {
 /// Of the depth of a press: forces below tell little of a modulus.
 constexpr double first_that_counts = 0.2;
 
-/// An automatic spacing is that of the press, among those of the data, which needs the finest; what
-/// that one is good for goes into `note`.
-LoadedConfig with_spacing_of_data(const LoadedConfig& loaded, const FitSetup& fit,
-                                  std::string& note) {
-  note = lattice_of_fit(loaded) == LatticeUse::none ? "" : spacing_note(loaded);
+/// Of the presses that were measured the one that needs the finest lattice, from where its forces
+/// count on; `loaded` where none was measured, or the spacing is given.
+LoadedConfig most_demanding(const LoadedConfig& loaded, const FitSetup& fit) {
   const std::vector<FitCurve>& curves = fit.input.curves;
-  if (note.empty() || fit.settings.size() != curves.size()) return loaded;
-  double divisor = 0.0;
+  if (!loaded.config.automatic_spacing || fit.settings.size() != curves.size()) return loaded;
+  std::optional<LoadedConfig> finest;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     if (curves[i].press.protocol.samples.empty()) continue;  // its depth is the configuration's
     const double depth = curves[i].press.protocol.samples.back();
     std::vector<std::string> sets = fit.settings[i];
     sets.push_back(samples_setting({first_that_counts * depth, depth}));
-    const LoadedConfig own = with_sets(loaded, sets);
-    if (*own.config.spacing_divisor <= divisor) continue;
-    divisor = *own.config.spacing_divisor;
-    note = spacing_note(own);
+    LoadedConfig own = with_sets(loaded, sets);
+    if (!finest || *own.config.spacing_divisor > *finest->config.spacing_divisor)
+      finest = std::move(own);
   }
-  if (divisor == 0.0) return loaded;
-  return with_sets(loaded, {fmt::format("lattice.spacing=tip_radius/{:.0f}", divisor)});
+  return finest.value_or(loaded);
 }
 
 FitSetup set_up(const LoadedConfig& given, Presses presses,
                 const std::shared_ptr<MeasuredFiles>& files) {
   FitSetup first = assembled(given, presses, files);
-  std::string spacing;
-  const LoadedConfig loaded = with_spacing_of_data(given, first, spacing);
-  if (loaded.config.press.lattice.spacing != given.config.press.lattice.spacing)
+  const bool asks_lattice = lattice_of_fit(given) != LatticeUse::none;
+  const LoadedConfig finest = asks_lattice ? most_demanding(given, first) : given;
+  LoadedConfig loaded = given;
+  if (const auto divisor = finest.config.spacing_divisor; divisor != given.config.spacing_divisor) {
+    loaded = with_sets(given, {fmt::format("lattice.spacing=tip_radius/{:.0f}", *divisor)});
     first = assembled(loaded, presses, files);
+  }
   const auto excess = excess_of_finite_strain(first.input);
   FitSetup fit = at_the_right_strain(loaded, std::move(first), presses, excess);
   if (fit.input.base.lattice.kinematics == lattice::Kinematics::small)
@@ -282,7 +283,8 @@ FitSetup set_up(const LoadedConfig& given, Presses presses,
   add_tolerances(loaded, fit.input);
   hold_back(loaded, fit);
   set_budget(loaded, fit);
-  if (!spacing.empty()) fit.notes.push_back(spacing);
+  if (const std::string note = spacing_note(finest); asks_lattice && !note.empty())
+    fit.notes.push_back(note);
   fit.input.candidates = candidates_of(
       knows_relaxation(loaded.config.calibration) ? in_equilibrium(fit.loaded) : fit.loaded, fit);
   return fit;

@@ -77,8 +77,9 @@ def press(settings: Mapping[str, Any] | None = None, *, slopes: Sequence[str] = 
     return _run(Response, "press", [], config, settings, out, force, resume, quiet, 1, further)
 
 
-def presses(points: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]], settings: Mapping[str, Any] | None = None, *, config=None, out=None,
-            resume=False, quiet=False, threads=0, **further) -> Presses:  # fmt: skip
+def presses(points: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]],
+            settings: Mapping[str, Any] | None = None, *, config=None, out=None, resume=False, quiet=False, threads=0,
+            **further) -> Presses:  # fmt: skip
     """Presses the lattice with every combination of values, {"section.key": [values]}, or with each of a list of
     settings, [{"section.key": value}, ...], `threads` at a time (0: as many as there are cores): the verb sweep.
     What did not converge is left out, and told."""
