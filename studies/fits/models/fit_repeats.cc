@@ -130,8 +130,7 @@ std::vector<std::vector<std::size_t>> sharing(const FitInput& input) {
 ForceAndDepth presses_at(const FitInput& input, const VectorXd& estimates,
                          const VectorXd& computed) {
   const std::vector<Curve> curves = curves_of(input);
-  ForceAndDepth at{(computed - calibration::stacked(zeros(input, estimates))).cwiseMax(0.0),
-                   VectorXd(computed.size())};
+  ForceAndDepth at{VectorXd(), VectorXd(computed.size())};
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const std::vector<double> depths =
         input.curves[i].travel ? input.curves[i].travel->indentations(curves[i], estimates)
@@ -139,6 +138,9 @@ ForceAndDepth presses_at(const FitInput& input, const VectorXd& estimates,
     at.depth.segment(first_value(curves, i), Index(depths.size())) =
         VectorXd::Map(depths.data(), Index(depths.size()));
   }
+  // Exactly none before touch, where the difference is round-off.
+  const VectorXd force = computed - calibration::stacked(zeros(input, estimates));
+  at.force = (at.depth.array() > 0.0).select(force.cwiseMax(0.0), 0.0);
   return at;
 }
 

@@ -233,6 +233,35 @@ TEST(FitCoverage, TouchAndModulusAreToldTogether) {
                     std::to_string(begin) + (sigma ? ", sigma" : ""));
 }
 
+/// Rows before touch, and a zero of force that is sought: what is left of their forces is
+/// round-off.
+TEST(FitCoverage, RoundOffStaysRoundOff) {
+  constexpr int rows = 40;
+  Order order;
+  order.settings.rig.force_offset = {.fitted = true, .given = true};
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    std::mt19937 random{seed};
+    Normal normal;
+    Curve curve;
+    curve.is_travel = true;
+    for (int i = 0; i < rows; ++i) {
+      curve.x.push_back(1.4 * reach * i / rows);
+      curve.y.push_back(hertz(truth, curve.x.back() - 0.4 * reach) + 0.003 * largest +
+                        0.005 * largest * normal(random));
+    }
+    const calibration::CurveFit fit = fitted({curve}, order);
+    for (double& force : curve.y) force *= 1.0 + 1e-10;
+    const calibration::CurveFit same = fitted({curve}, order);
+    for (Index k = 0; k < fit.estimates.size(); ++k) {
+      const double error = fit.standard_errors(k);
+      EXPECT_NEAR(same.estimates(k), fit.estimates(k), 1e-5 * error) << seed << ", " << k;
+      EXPECT_NEAR(same.standard_errors(k), error, 1e-5 * error) << seed << ", " << k;
+      EXPECT_NEAR(same.lower(k), fit.lower(k), 1e-3 * error) << seed << ", " << k;
+      EXPECT_NEAR(same.upper(k), fit.upper(k), 1e-3 * error) << seed << ", " << k;
+    }
+  }
+}
+
 namespace {
 
 /// Share and time of the branch; a ramp of 2 s, then a hold [s].
