@@ -1,10 +1,16 @@
 #!/usr/bin/env bash
 # Puts what `fingertip package` wrote on this machine, best one that has nothing (see README), and does with it what a
-# newcomer does. Usage: try.sh fingertip_VERSION_amd64.deb | fingertip-VERSION-*.whl (both as root) | FOLDER, of an archive
+# newcomer does. Usage, as root: try.sh fingertip_VERSION_amd64.deb | fingertip-VERSION-*.whl |
+# fingertip-VERSION-x86_64.tar.xz | the FOLDER that is in it
 set -euo pipefail
 
 what=$(realpath "$1")
 cd "$(mktemp -d)"
+if [[ $what == *.tar.xz ]]; then
+  command -v xz >/dev/null || { apt-get update -qq && apt-get install -y -qq xz-utils >install.log; } # to unpack it
+  tar -xf "$what"
+  what=$(realpath fingertip-*)
+fi
 step() {
   printf '\n== %s\n' "$*"
   SECONDS=0
