@@ -271,6 +271,20 @@ struct ContactEntry {
 };
 FINGERTIP_FIELDS(ContactEntry, taken, other, chi_square, residual_deviation, parameters);
 
+/// Something that is told of the presses, and the fit with another in its place.
+struct RivalEntry {
+  /// "rod_radius", or where presses have several "rod_radius of 0.005"; "0.005 m", "0.00625 m"
+  std::string name, told, instead;
+  double likelier = meshes::unknown;  ///< log of how many times likelier the data are then
+  std::vector<OtherEstimate> parameters;
+
+  /// That it is so: one of a hundred presses is told wrongly.
+  double probability() const { return 1.0 / (1.0 + 99.0 * std::exp(-likelier)); }
+  bool counts() const { return probability() > 0.05; }
+  bool contradicts() const { return probability() > 0.95; }
+};
+FINGERTIP_FIELDS(RivalEntry, name, told, instead, likelier, parameters);
+
 /// Where the result may be used.
 struct ValidityEntry {
   double largest_strain_measure = meshes::unknown, spacing = meshes::unknown,
@@ -322,6 +336,7 @@ struct FitFile {
   std::vector<ScoreTest> lack_of_fit;
   std::optional<ErrorsEntry> errors;  ///< of measured presses
   std::vector<SensitivityEntry> sensitivities;
+  std::vector<RivalEntry> rivals;  ///< that count, likeliest first
   std::vector<PredictedEntry> predicted;
   std::vector<NextEntry> next;
   std::optional<ContactEntry> contact;
@@ -338,11 +353,11 @@ consteval auto fields_of(const FitFile*) {
              only_from_priors, degrees_of_freedom, chi_square, chi_square_probability, birge_ratio,
              model_error, converged, poissons_ratio_bound, residual_deviation, minima, x_quantity,
              y_quantity, curves, residuals, influence, profile, iterations, evaluations, wall_time,
-             validity, failed, rig, lack_of_fit, errors, sensitivities, predicted, next, contact,
-             repeats, displacements, statement)
+             validity, failed, rig, lack_of_fit, errors, sensitivities, rivals, predicted, next,
+             contact, repeats, displacements, statement)
       .newer(
           "rubber model_error converged poissons_ratio_bound failed rig lack_of_fit errors "
-          "sensitivities predicted next contact repeats displacements");
+          "sensitivities rivals predicted next contact repeats displacements");
 }
 
 /// What a fit to moduli, which has no curves, has in common with others.

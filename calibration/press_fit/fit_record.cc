@@ -242,6 +242,7 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
   fit.lack_of_fit = record.lack_of_fit;
   fit.errors = record.errors;
   fit.sensitivities = record.sensitivities;
+  fit.rivals = record.rivals;
   fit.predicted = record.predicted;
   fit.next = next_entries(record.next, record.fit.labels, record.fit.estimates, record.fit.lower,
                           record.fit.upper);

@@ -50,6 +50,7 @@ struct FitRecord {
   std::vector<RigValue> rig;                     ///< of presses over travel
   std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
   std::vector<SensitivityEntry> sensitivities;   ///< of the presses' sizes and place
+  std::vector<RivalEntry> rivals;                ///< that count, likeliest first
   std::vector<ScoreTest> lack_of_fit;            ///< gravest first
   std::vector<PredictedEntry> predicted;         ///< presses that were held back
   std::vector<MeasurementGain> next;             ///< further measurements, best first
@@ -79,6 +80,12 @@ std::vector<double> total_sigma(const FitRecord& record, std::size_t curve);
 /// over the curve's largest.
 double worst_relative_residual(const FitRecord& record);
 
+/// RivalEntry::name of the contact between rubber and obstacle.
+inline constexpr const char* contact_rival = "press.contact";
+
+/// "rod_radius = 5 mm: with 6.25 mm they are 30 times likelier, and modulus = 120 kPa (95 %: ...)"
+std::string rival_words(const FitRecord& record, const RivalEntry& rival);
+
 /// What was found, how sure that is, what the data leave open and whether the model describes them.
 std::string fit_statement(const FitRecord& record);
 
@@ -90,7 +97,8 @@ double poissons_ratio_interval(const CurveFit& fit);
 
 /// Why constants of this fit must not be used as they are, a sentence each; none: it passed its own
 /// tests. It fails where the search did not end; where the model does not describe the data (of
-/// measured presses more than a tenth of them is missed beyond noise; else chi-square is
+/// measured presses more than a tenth of them is missed beyond noise, or they contradict what is
+/// told of the presses (RivalEntry); else chi-square is
 /// improbable, below 1 %, or, where there is none, a curve is missed by more than a tenth,
 /// relative_rms); where a parameter or Poisson's ratio ended at a bound; where a quantity of a
 /// machine is farther from what was known of it than three deviations of both; where the data leave

@@ -162,6 +162,16 @@ void judge_identifiability(Sentences& found, const FitRecord& record) {
   found.push_back("the data do not determine " + told + remedy);
 }
 
+/// What is told of the presses against what makes the data far likelier.
+void judge_told(Sentences& found, const FitRecord& record) {
+  if (record.rivals.empty() || !record.rivals.front().contradicts()) return;
+  const RivalEntry& rival = record.rivals.front();
+  found.push_back("the data contradict " + rival_words(record, rival) + ": " +
+                  (rival.name == contact_rival
+                       ? "look how the rubber touches, and tell that"
+                       : "measure it, or tell how well it is known (calibration.tolerances)"));
+}
+
 /// What was known of the machine contradicts what the data say, beyond what they leave open.
 void judge_priors(Sentences& found, const FitRecord& record) {
   constexpr double widths = 3.0;
@@ -208,6 +218,7 @@ std::vector<std::string> failed_tests(const FitRecord& record) {
         (fit.evaluations == 1 ? " evaluation" : " evaluations") +
         ", and the estimates are the best seen so far: allow more (calibration.evaluations), free "
         "fewer parameters, or leave out depths that the model does not resolve");
+  judge_told(found, record);
   judge_misfit(found, record);
   judge_touch(found, record);
   judge_unloading(found, record);

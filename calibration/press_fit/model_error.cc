@@ -58,10 +58,9 @@ double covariance(const Place& a, const Place& b) {
   return sum;
 }
 
-/// Cells through the thickness, and depths between which the ratio of two theories is straight, or
-/// what a size does to the forces.
+/// Cells through the thickness, and depths between which the ratio of two theories is straight.
 constexpr double coarse_cells = 5.0;
-constexpr std::size_t coarse_depths = 8, depths_of_changes = 3;
+constexpr std::size_t coarse_depths = 8;
 
 std::vector<double> forces(PressSetup press, ModelKind model, Kinematics kinematics) {
   press.lattice.model = model;
@@ -81,6 +80,12 @@ std::vector<double> forces(PressSetup press, ModelKind model, Kinematics kinemat
   const std::scoped_lock lock(one_at_a_time);
   known.emplace(key, result);
   return result;
+}
+
+/// By the lattice of cells whose theory it is.
+std::vector<double> forces(const PressSetup& press, Kinematics kinematics) {
+  return forces(press, kinematics == Kinematics::finite ? ModelKind::network : ModelKind::hookean,
+                kinematics);
 }
 
 /// Few cells and depths.
@@ -150,8 +155,8 @@ Eigen::VectorXd excess_of_other_contact(PressSetup press) {
   PressSetup other = press;
   using enum meshes::ContactMode;
   other.protocol.contact = press.protocol.contact == stick ? frictionless : stick;
-  return excess(press, forces(press, ModelKind::hookean, Kinematics::small),
-                forces(other, ModelKind::hookean, Kinematics::small), wanted);
+  const Kinematics kinematics = press.lattice.kinematics;
+  return excess(press, forces(press, kinematics), forces(other, kinematics), wanted);
 }
 
 bool has(const PressSetup& press, Described what) {
@@ -183,7 +188,8 @@ namespace {
 /// Forces of a coarse press that differs in one number from that described, on the same cells,
 /// whose errors so nearly cancel: a larger finger is the same one under smaller depths and
 /// obstacles, F = s² F(d/s), a larger tip such a finger with a smaller rod.
-std::vector<double> forces_with(PressSetup press, Described what, double value) {
+std::vector<double> forces_with(PressSetup press, Described what, double value,
+                                Kinematics kinematics) {
   meshes::PressProtocol& protocol = press.protocol;
   double scale = 1.0;
   switch (what) {
@@ -202,19 +208,20 @@ std::vector<double> forces_with(PressSetup press, Described what, double value) 
   for (double& depth : protocol.samples) depth /= scale;
   for (double* length : {&protocol.depth, &protocol.obstacle.radius, &protocol.obstacle.offset})
     *length /= scale;
-  std::vector<double> found = forces(press, ModelKind::hookean, Kinematics::small);
+  std::vector<double> found = forces(press, kinematics);
   for (double& force : found) force *= scale * scale;
   return found;
 }
 
 }  // namespace
 
-Eigen::VectorXd change_between(PressSetup press, Described what, double low, double high) {
+Eigen::VectorXd change_between(PressSetup press, Described what, double low, double high,
+                               Kinematics kinematics, std::size_t depths) {
   const std::vector<double> wanted = press.protocol.samples;
-  make_coarse(press, depths_of_changes);
-  const std::vector<double> own = forces(press, ModelKind::hookean, Kinematics::small),
-                            below = forces_with(press, what, low),
-                            above = forces_with(press, what, high);
+  make_coarse(press, depths);
+  const std::vector<double> own = forces(press, kinematics),
+                            below = forces_with(press, what, low, kinematics),
+                            above = forces_with(press, what, high, kinematics);
   std::vector<double> change;
   for (std::size_t i = 0; i < own.size(); ++i) change.push_back((above[i] - below[i]) / own[i]);
   return at_depths(press.protocol.samples, change, wanted);

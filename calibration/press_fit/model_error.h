@@ -31,7 +31,7 @@ Eigen::MatrixXd lattice_covariance(const std::vector<lattice::PressSetup>& press
 Eigen::VectorXd excess_of_finite_strain(lattice::PressSetup press);
 
 /// By how much forces under the other contact exceed those under `press`'s own, relative, at every
-/// sample, in the same way at small strain: sticking instead of frictionless or of Coulomb's, and
+/// sample, in the same way by its own theory of strain: sticking instead of frictionless or of Coulomb's, and
 /// frictionless instead of sticking.
 Eigen::VectorXd excess_of_other_contact(lattice::PressSetup press);
 
@@ -74,10 +74,12 @@ bool has(const lattice::PressSetup& press, Described what);
 double value_of(const lattice::PressSetup& press, Described what);
 /// By how much the forces of `press` at E as described change where the number, which it has, goes
 /// from `low` to `high`, over those as described, at every sample: by coarse lattices as above, at
-/// small strain and three depths, before the first constant. A scaled finger is the finger under
-/// scaled depths and obstacles, F = s² F(d/s). Of a ball of 8 mm on the default finger, 0.5 to 1.5
-/// mm deep, within 26 % of what continua say, of Poisson's ratio 10 %. Throws as run_static_press
-/// does, InvalidInput for a press that cannot be.
-Eigen::VectorXd change_between(lattice::PressSetup press, Described what, double low, double high);
+/// small or large strain and so many depths, before the first constant. A scaled finger is the
+/// finger under scaled depths and obstacles, F = s² F(d/s). Of a ball of 8 mm on the default
+/// finger, 0.5 to 1.5 mm deep, within 26 % of what continua say, of Poisson's ratio 10 %. Throws as
+/// run_static_press does, InvalidInput for a press that cannot be.
+Eigen::VectorXd change_between(lattice::PressSetup press, Described what, double low, double high,
+                               lattice::Kinematics kinematics = lattice::Kinematics::small,
+                               std::size_t depths = 3);
 
 }  // namespace fingertip::calibration::inline press_fit

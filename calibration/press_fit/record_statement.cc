@@ -286,6 +286,15 @@ std::string sensitivities(const FitRecord& record, bool counting) {
                             "(calibration.tolerances).");
 }
 
+/// What intervals cover besides.
+std::string rivals(const FitRecord& record) {
+  std::string text;
+  for (const RivalEntry& each : record.rivals)
+    if (!each.contradicts())
+      text += " They leave open " + rival_words(record, each) + ", which the intervals cover.";
+  return text;
+}
+
 /// How much of it there would be: an absurd amount shows that it is not the cause.
 std::string amount_of(const ScoreTest& each) {
   return each.unit == "1" ? percent(each.amount) + " of " + each.share_of
@@ -307,15 +316,31 @@ std::string lack_of_fit(const FitRecord& record) {
     const ScoreTest& each = record.lack_of_fit[i];
     if (each.probability > by_no_chance) break;
     const std::string named = each.name + (each.of.empty() ? "" : " (" + each.of + ")");
-    text += (i == 0 ? " What is missed looks most like " : "; then ") + named +
-            ", which alone would "
-            "take away " +
-            percent(each.share) + " of the misfit (" + amount_of(each) + ": " + each.cause + ")";
+    text += (i == 0 ? " What is missed looks most like " : "; then ") + named;
+    if (std::isfinite(each.share))
+      text += ", which alone would take away " + percent(each.share) + " of the misfit (" +
+              amount_of(each) + ": " + each.cause + ")";
+    else
+      text += " (" + each.cause + ")";
   }
   return text.empty() ? text : text + ".";
 }
 
 }  // namespace
+
+std::string rival_words(const FitRecord& record, const RivalEntry& rival) {
+  const double times = std::exp(rival.likelier);
+  std::string text = rival.name + " = " + rival.told + ": with " + rival.instead + " they are " +
+                     (times > 1e6 ? "over a million" : rounded(times, 2)) + " times likelier";
+  for (std::size_t i = 0; i < rival.parameters.size(); ++i) {
+    const OtherEstimate& each = rival.parameters[i];
+    const std::string unit_text(unit(record.fit.parameters[i]));
+    text += ", with " + each.name + " = " + quantity_text(each.estimate, unit_text) +
+            " (95 %: " + quantity_text(each.lower, unit_text) + " to " +
+            quantity_text(each.upper, unit_text) + ")";
+  }
+  return text;
+}
 
 std::string prediction_words(const PredictedEntry& entry) {
   if (!entry.failure.empty()) return entry.name + ", held back, is not foretold: " + entry.failure;
@@ -342,8 +367,8 @@ std::string fit_statement(const FitRecord& record) {
   for (const std::string& failed : failed_tests(record)) text += "Not accepted: " + failed + ". ";
   text += estimates(record.fit) + misfit(record) + repeats(record) + open_directions(record.fit) +
           other_minima(record.fit) + collinearity(record) + assumptions(record) +
-          sensitivities(record, true) + sensitivities(record, false) + structures(record) +
-          relaxation_words(record) + loops(record) + lack_of_fit(record);
+          sensitivities(record, true) + sensitivities(record, false) + rivals(record) +
+          structures(record) + relaxation_words(record) + loops(record) + lack_of_fit(record);
   for (const PredictedEntry& each : record.predicted) text += " " + prediction_words(each);
   const std::string next =
       gain_statement(record.next, record.fit.labels, rubber_parameters(record.fit));

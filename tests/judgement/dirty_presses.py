@@ -633,7 +633,7 @@ def slip_begins_late(s):
     return s.fit(contact="stick")
 
 
-SHAPE = "stiffening|(?i:shape|thickness|obstacle)"  # a thinner layer is stiffer with depth
+SHAPE = "stiffening|(?i:shape|thickness|obstacle|radius)"  # a thinner layer is stiffer with depth
 
 
 @kind(False, SHAPE)

@@ -75,11 +75,29 @@ def least(function, low, high):
     return 0.5 * (low + high)
 
 
+# What a machine may be though nobody tells it: compliances [mm/N], zeros over the largest force.
+COMPLIANCES, ZEROS = (0.0, 0.01, 0.02, 0.03, 0.04), (-0.002, 0.0, 0.002)
+
+
 def left_over(presses):
-    """What the best common scale and touch of each press leave of rows: [(force, sigma, rest)].
+    """What the best common scale and machine and the best touch of each press leave of rows:
+    [(force, sigma, rest)].
 
     presses: [(rows (position, force, sigma), table of the truth without the fault)].
     """
+    found = []
+    for compliance in COMPLIANCES:
+        for zero in ZEROS:
+            moved = []
+            for rows, table in presses:
+                largest = max(abs(force) for _, force, _ in rows)
+                moved.append(([(x - compliance * f, f - zero * largest, e) for x, f, e in rows], table))
+            found.append(left_by_a_machine(moved))
+    return min(found, key=lambda rests: sum((rest / e)**2 for _, e, rest in rests))
+
+
+def left_by_a_machine(presses):
+    """The same of a rigid, tared one."""
     touches = [rows[0][0] - table[0][0] for rows, table in presses]
 
     def products(k, touch):

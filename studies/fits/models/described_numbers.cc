@@ -45,6 +45,10 @@ bool any_has(const FitInput& input, Described number) {
       input.curves, [&](const FitCurve& curve) { return calibration::has(curve.press, number); });
 }
 
+bool has_value(const PressSetup& press, Described number, double value) {
+  return calibration::has(press, number) && is_same(calibration::value_of(press, number), value);
+}
+
 std::vector<KnownError> by_value(const KnownError& error, const FitInput& input) {
   std::vector<KnownError> found;
   for (const FitCurve& curve : input.curves) {
@@ -64,9 +68,7 @@ std::vector<KnownError> by_value(const KnownError& error, const FitInput& input)
 }
 
 std::vector<double> changes_of(const KnownError& error, const PressSetup& press) {
-  if (!calibration::has(press, *error.number) ||
-      !is_same(calibration::value_of(press, *error.number), error.value))
-    return {};
+  if (!has_value(press, *error.number, error.value)) return {};
   const Ends ends = ends_of(error);
   const Eigen::VectorXd change =
       ends.share * calibration::change_between(press, *error.number, ends.low, ends.high);

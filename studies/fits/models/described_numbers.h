@@ -10,6 +10,9 @@ namespace fingertip::studies::inline fits::inline models {
 /// Whether any press of the fit has it.
 bool any_has(const FitInput& input, calibration::Described number);
 
+/// Whether the press has the number, and it is `value`.
+bool has_value(const lattice::PressSetup& press, calibration::Described number, double value);
+
 /// A number whose error is a step, or anywhere between two values: an error for each value that it
 /// has among the presses, which share it; where there are several their names tell the value.
 std::vector<KnownError> by_value(const KnownError& error, const FitInput& input);

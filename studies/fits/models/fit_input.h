@@ -95,6 +95,7 @@ struct FitInput {
   std::vector<calibration::FitBranch> branches;
   lattice::PressSetup base;   ///< of the configuration: rubber and lattice that are not sought
   bool rubber_known = false;  ///< the data were made of base.rubber
+  bool contact_told = false;  ///< of all presses, by somebody
   calibration::CurveFitOptions options;
   /// Poisson's ratios that are scanned for starts of E and G; none: options.free starts, its
   /// stiffness put to the data's scale where `scale_to_data`.

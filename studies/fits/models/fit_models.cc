@@ -311,6 +311,10 @@ std::unique_ptr<calibration::RigModel> FitModels::behind_rig(
       Eigen::Index(material_parameters(input)), rig, curve.x, curve.time, parameters, branches);
 }
 
+ForwardModel& FitModels::press(std::size_t i) const {
+  return *answers_[i].press;
+}
+
 Eigen::VectorXd FitModels::press_forces(std::size_t i, const Eigen::VectorXd& rubber) const {
   return answers_[i].press->evaluate(rubber).value;
 }

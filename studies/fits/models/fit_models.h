@@ -36,6 +36,10 @@ class FitModels {
       const calibration::Curve& curve, Eigen::Index parameters,
       const std::vector<calibration::FitBranch>& branches = {}) const;
 
+  /// The press of curve `i` by the rubber's parameters: at the depths of its travel, or at its
+  /// values.
+  calibration::ForwardModel& press(std::size_t i) const;
+
   /// What the press of curve `i` answers for the rubber's parameters: at the depths of its travel,
   /// or at its values [N].
   Eigen::VectorXd press_forces(std::size_t i, const Eigen::VectorXd& rubber) const;

@@ -226,23 +226,6 @@ std::vector<VectorXd> by_curve(const FitInput& input, const VectorXd& all) {
   return lists;
 }
 
-/// The fit of values whose errors are known by now. `told`: what files tell of their noise.
-calibration::Posterior weighed(const FitInput& input, const Models& models, const CurveFit& first,
-                               const VectorXd& told, bool is_told) {
-  return calibration::posterior_fit({.curves = curves_of(input),
-                                     .models = models,
-                                     .options = input.options,
-                                     .deviations = told,
-                                     .noise_told = is_told,
-                                     .components =
-                                         [&](const VectorXd& estimates, const VectorXd& computed) {
-                                           return components_of(
-                                               input, presses_at(input, estimates, computed),
-                                               input.curves.size());
-                                         }},
-                                    first);
-}
-
 /// Its values weighed by their noise, which repeats are compared with.
 CurveFit by_noise_alone(const FitInput& input, const Models& models,
                         const calibration::Posterior& by, const VectorXd& told) {
@@ -274,6 +257,11 @@ void put_chi_square(CurveFit& fit, const FitInput& input, const VectorXd& told) 
   fit.chi_square = squares;
   if (fit.degrees_of_freedom > 0)
     fit.chi_square_probability = calibration::chi_square_above(squares, fit.degrees_of_freedom);
+}
+
+/// Whether files tell the noise of their values.
+bool is_told(const FitInput& input) {
+  return !input.curves.front().sigma.empty();
 }
 
 calibration::ErrorsEntry entry_of(const calibration::ValueErrors& errors, const VectorXd& told,
@@ -310,20 +298,35 @@ void add_intervals(const Models& models, const calibration::Posterior& by,
 
 }  // namespace
 
+calibration::Posterior posterior_of(const FitInput& input, const Models& models,
+                                    const CurveFit& first) {
+  return calibration::posterior_fit({.curves = curves_of(input),
+                                     .models = models,
+                                     .options = input.options,
+                                     .deviations = told_deviations(input, first.residual_deviation),
+                                     .noise_told = is_told(input),
+                                     .components =
+                                         [&](const VectorXd& estimates, const VectorXd& computed) {
+                                           return components_of(
+                                               input, presses_at(input, estimates, computed),
+                                               input.curves.size());
+                                         }},
+                                    first);
+}
+
 void add_errors_and_intervals(const FitInput& input, const Models& models,
                               calibration::FitRecord& record) {
   record.options = input.options;
   if (input.problem != CalibrationProblem::experiment || !has_presses(input)) return;
-  const bool is_told = !input.curves.front().sigma.empty();
   const VectorXd told = told_deviations(input, record.fit.residual_deviation);
-  const calibration::Posterior by = weighed(input, models, record.fit, told, is_told);
+  const calibration::Posterior by = posterior_of(input, models, record.fit);
   record.fit = by.fit;
   record.odd = by.odd;
   record.repeats = repeats_in(input, by_noise_alone(input, models, by, told));
   calibration::put_posterior(by.errors, input.options.free, record.fit);
   put_chi_square(record.fit, input, told);
   record.misfit_size = by.errors.sizes.front();
-  record.errors = entry_of(by.errors, told, is_told, calibration::all_values(record.curves));
+  record.errors = entry_of(by.errors, told, is_told(input), calibration::all_values(record.curves));
   if (scatter(record.repeats)) {
     record.model_error +=
         std::string(record.model_error.empty() ? "" : " and ") + "the scatter between repeats";

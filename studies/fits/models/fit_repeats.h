@@ -47,9 +47,14 @@ std::vector<calibration::ErrorComponent> components_of(const FitInput& input,
 /// every other curve by itself.
 std::vector<std::vector<std::size_t>> sharing(const FitInput& input);
 
-/// What follows the search for `record.fit`: repeats, and the fit once more with the errors that
-/// its values show, noise, a smooth part that the model misses and a factor of every repeat
-/// (calibration::value_errors); options and intervals of the record.
+/// The fit once more from `first`, with the errors that its values show: noise, a smooth part that
+/// the model misses and a factor of every repeat (calibration::value_errors).
+calibration::Posterior posterior_of(const FitInput& input,
+                                    const std::vector<calibration::ForwardModel*>& models,
+                                    const calibration::CurveFit& first);
+
+/// What follows the search for `record.fit`: repeats, and posterior_of; options and intervals of
+/// the record.
 void add_errors_and_intervals(const FitInput& input,
                               const std::vector<calibration::ForwardModel*>& models,
                               calibration::FitRecord& record);

@@ -41,7 +41,7 @@ const char* cause_of(MaterialParameter parameter) {
 /// What is freed, for people.
 OmittedEffect effect_of(const Freed& freed) {
   if (freed.kind == Freed::rubber)
-    return {"another rubber",
+    return {other_rubber_name,
             freed.of,
             "these presses ask for another modulus than the others: another rubber or batch, or "
             "finger, obstacle or load cell are not as described",

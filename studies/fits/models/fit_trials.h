@@ -11,6 +11,8 @@ namespace fingertip::studies::inline fits::inline models {
 
 /// The name of a cause that has none: many make a force stiffen.
 inline constexpr const char* stiffening_name = "stiffening";
+/// That of presses which ask for another modulus than others.
+inline constexpr const char* other_rubber_name = "another rubber";
 
 /// One of `rig_parameters` of a curve, or of the curves of a machine; behind them the modulus of
 /// the curves of one press.

@@ -75,7 +75,7 @@ std::vector<Excess> excesses_of(const FitInput& input) {
   const bool slips = input.curves.front().press.protocol.contact != meshes::ContactMode::stick;
   auto other = excess_of(input, calibration::excess_of_other_contact);
   if (!other.empty())
-    excesses.push_back({slips ? "sticking" : "slip",
+    excesses.push_back({slips ? sticking_name : slip_name,
                         slips
                             ? "the rubber sticks to the obstacle (press.contact = \"stick\")"
                             : "the rubber slips on the obstacle (press.contact = \"frictionless\")",

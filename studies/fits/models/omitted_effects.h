@@ -8,6 +8,9 @@
 
 namespace fingertip::studies::inline fits::inline models {
 
+/// Names of what the other contact would be.
+inline constexpr const char *sticking_name = "sticking", *slip_name = "slip";
+
 /// Per press of an experiment what finite strain adds to its forces, relative, at every sample;
 /// empty where a theory of large strain is fitted, or where none could be pressed so far.
 std::vector<std::vector<double>> excess_of_finite_strain(const FitInput& input);

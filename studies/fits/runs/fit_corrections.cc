@@ -115,6 +115,7 @@ std::optional<FitSetup> with_other_contact(const FitSetup& fit) {
                 fit.files);
   // Both run side by side: in one folder a fit would read the other contact's forces.
   rival.input.place = "other_contact_" + rival.input.place;
+  rival.input.contact_told = false;  // by nobody: it is chosen afterwards
   return rival;
 }
 

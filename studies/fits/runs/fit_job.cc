@@ -28,6 +28,7 @@
 #include "studies/fits/models/held_back.h"
 #include "studies/fits/models/measurement_gains.h"
 #include "studies/fits/models/omitted_effects.h"
+#include "studies/fits/models/rivals.h"
 #include "studies/presses/press_record.h"
 
 namespace fingertip::studies::inline fits::inline runs {
@@ -260,6 +261,9 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   const calibration::CurveFit searched = record.fit;
   add_errors_and_intervals(input, list, record);
   record.sensitivities = sensitivities_of(input, record, context);
+  stage = "what is told of the presses";
+  record.rivals = rivals_of(input, models, searched, record, context.log);
+  take_rivals(record);
   stage = "curves left out";
   if (input.curves.size() > 1)
     record.left_out = calibration::leave_one_out(record.curves, list, record.options, record.fit);
@@ -268,6 +272,7 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   stage = "lack of fit";
   record.lack_of_fit =
       score_tests_of(input, searched, input.options, models, scatter(record.repeats));
+  accuse_rival(record);
   if (record.fit.converged && !input.candidates.empty())
     record.next =
         measurement_gains(input, models, record.fit.estimates,
@@ -301,6 +306,7 @@ ordered_json fit_inputs(const FitInput& input) {
       {"rubber", rubber_inputs(input.base.rubber, input.base.lattice.kinematics)},
       {"lattice", meshes::json_of(input.base.lattice)},
       {"rubber_known", input.rubber_known},
+      {"contact_told", input.contact_told},
       {"robust_width", input.options.robust_width},
       {"starts", input.start_ratios},
       {"profile", input.profile},

@@ -281,6 +281,7 @@ FitSetup set_up(const LoadedConfig& given, Presses presses,
   if (fit.input.base.lattice.kinematics == lattice::Kinematics::small)
     for (std::size_t i = 0; i < excess.size(); ++i) fit.input.curves[i].finite_excess = excess[i];
   add_tolerances(loaded, fit.input);
+  fit.input.contact_told = fit.contact_known;
   hold_back(loaded, fit);
   set_budget(loaded, fit);
   if (const std::string note = spacing_note(finest); asks_lattice && !note.empty())

@@ -264,6 +264,29 @@ TEST(FitRecord, EAndGThatLeaveTheRatioOpenAreNotDetermined) {
   EXPECT_TRUE(omits(in_one(failed_tests(told)), "Poisson's ratio"));
 }
 
+/// One press in a hundred is told wrongly: data that are 99/19 times likelier with something else
+/// leave it at 1 in 20, 99 * 19 times make it 19 in 20.
+TEST(FitRecord, WhatTheDataContradictIsRefused) {
+  FitRecord record = record_of({measured("a", {1.5, 2.5, 3.5, 4.5, 5.5}, 0.0)}, one_modulus());
+  record.material.rubber.youngs_modulus = 3e4, record.material.rubber.shear_modulus = 1e4;
+  const auto told = [&](double times) {
+    record.rivals = {
+        {"rod_radius", "0.005 m", "0.007 m", std::log(times), {{"modulus", 3.0, 2.0, 4.0}}}};
+    return in_one(failed_tests(record)) + fit_statement(record);
+  };
+  const std::string contradicted =
+                        "the data contradict rod_radius = 0.005 m: with 0.007 m they are ",
+                    open = "They leave open rod_radius = 0.005 m: with 0.007 m they are ";
+  EXPECT_TRUE(says(told(99.0 * 19.0 * 1.1), {contradicted, "modulus = 3 Pa (95 %: 2 Pa to 4 Pa)",
+                                             "calibration.tolerances"}));
+  EXPECT_TRUE(omits(told(99.0 * 19.0 * 1.1), "They leave open"));
+  EXPECT_TRUE(omits(told(99.0 * 19.0 * 0.9), "the data contradict"));
+  EXPECT_TRUE(says(told(99.0 * 19.0 * 0.9), open));
+  EXPECT_TRUE(record.rivals.front().counts());
+  EXPECT_FALSE((RivalEntry{"", "", "", std::log(0.9 * 99.0 / 19.0), {}}.counts()));
+  EXPECT_TRUE((RivalEntry{"", "", "", std::log(1.1 * 99.0 / 19.0), {}}.counts()));
+}
+
 /// F = (x - 0.3)^1.15 behind four rows without force, which a press of power 2 meets only with a
 /// touch long before them. The same rows from 1 mm on begin under load, and hide nothing.
 TEST(FitRecord, ATouchBeforeRowsWithoutForceIsContradictedByThem) {
