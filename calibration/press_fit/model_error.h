@@ -31,8 +31,8 @@ Eigen::MatrixXd lattice_covariance(const std::vector<lattice::PressSetup>& press
 Eigen::VectorXd excess_of_finite_strain(lattice::PressSetup press);
 
 /// By how much forces under the other contact exceed those under `press`'s own, relative, at every
-/// sample, in the same way by its own theory of strain: sticking instead of frictionless or of Coulomb's, and
-/// frictionless instead of sticking.
+/// sample, in the same way by its own theory of strain: sticking instead of frictionless or of
+/// Coulomb's, and frictionless instead of sticking.
 Eigen::VectorXd excess_of_other_contact(lattice::PressSetup press);
 
 /// A number that a press is described by and that is known within a tolerance.
