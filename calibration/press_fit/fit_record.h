@@ -98,12 +98,12 @@ double poissons_ratio_interval(const CurveFit& fit);
 /// Why constants of this fit must not be used as they are, a sentence each; none: it passed its own
 /// tests. It fails where the search did not end; where the model does not describe the data (of
 /// measured presses more than a tenth of them is missed beyond noise, or they contradict what is
-/// told of the presses (RivalEntry); else chi-square is
-/// improbable, below 1 %, or, where there is none, a curve is missed by more than a tenth,
-/// relative_rms); where a parameter or Poisson's ratio ended at a bound; where a quantity of a
-/// machine is farther from what was known of it than three deviations of both; where the data leave
-/// a direction open, of E and G Poisson's ratio by more than open_ratio; and where the material is
-/// no rubber: rules of Material, E outside of meshes::implausible_modulus.
+/// told of the presses (RivalEntry); else chi-square is improbable, below 1 %, or, where there is
+/// none, a curve is missed by more than a tenth, relative_rms); where a parameter or Poisson's
+/// ratio ended at a bound; where a quantity of a machine is farther from what was known of it than
+/// three deviations of both; where the data leave a direction open, of E and G Poisson's ratio by
+/// more than open_ratio; and where the material is no rubber: rules of Material, E outside of
+/// meshes::implausible_modulus.
 std::vector<std::string> failed_tests(const FitRecord& record);
 
 /// "deep, held back, is foretold within 2.1 %, inside its 95 % interval, ...", a sentence or two.
